@@ -17,9 +17,10 @@
 namespace corotet::benchmarks
 {
   /**
-   * Input and output of an application y = K x, and how far the output is from
-   * that of quadrature, which shares nothing with the others, relative to its
-   * largest entry. (Who is compared with something else sets what is expected.)
+   * Input and output of an application y = K x, and the difference of the
+   * output from that of quadrature, which shares no code with the other
+   * operators, relative to the largest entry. (Benchmarks that are compared
+   * with something else change @p expected.)
    */
   struct Application
   {
@@ -34,7 +35,8 @@ namespace corotet::benchmarks
       data.problem().clamp(expected);
     }
 
-    /// Where the beam is clamped, only some have the rows of a diagonal matrix.
+    /// The relative difference to @p expected, without the clamped rows: only
+    /// some operators have those of a diagonal matrix.
     double
     difference(const Problem &problem) const
     {
@@ -44,7 +46,7 @@ namespace corotet::benchmarks
       return error.linfty_norm() / expected.linfty_norm();
     }
 
-    /// What conjugate gradients do with their vectors between applications.
+    /// Updates the vectors as conjugate gradients do between applications.
     void
     update_vectors()
     {
@@ -61,8 +63,8 @@ namespace corotet::benchmarks
     Vector residual;
   };
 
-  /// One row of the table: @p make returns a function of an Application. It
-  /// is an error if the difference exceeds @p largest_difference.
+  /// Adds one row of the table: @p make returns the action for an Application.
+  /// It is an error if the difference exceeds @p largest_difference.
   template <typename Make>
   void
   add_application(
@@ -89,8 +91,8 @@ namespace corotet::benchmarks
     });
   }
 
-  /// Bytes that one application moves at least: the matrix, and both vectors
-  /// once.
+  /// The bytes that one application moves at least: the matrix, and both
+  /// vectors once.
   inline double
   matrix_traffic(const double values,
                  const double indices,
@@ -100,8 +102,8 @@ namespace corotet::benchmarks
     return 8 * values + 4 * indices + 4 * rows + 16 * unknowns;
   }
 
-  /// Operations, and bytes that one application without a matrix moves at
-  /// least: the cells, and both vectors once. Indices are those of nodes.
+  /// The operations, and the bytes that one matrix-free application moves at
+  /// least: the data of cells, node indices, and both vectors once.
   inline Counters
   matrix_free_counters(const Problem &problem,
                        const double   flops_per_cell,

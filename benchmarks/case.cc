@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Benchmarks of one body: operators, updates, solvers, dynamics and memory. Its
-// arguments say which body, and those of Google Benchmark which benchmarks.
+// Benchmarks of one body: operators, updates, solvers, dynamics and memory.
+// Arguments select the body and, as those of Google Benchmark, the benchmarks.
 // Runs on any number of ranks.
 
 #include <deal.II/base/mpi.h>

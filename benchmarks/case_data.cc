@@ -61,7 +61,8 @@ namespace corotet::benchmarks
   const CompressedRows &
   CaseData::compressed_rows()
   {
-    // Its values may be those of a deformed body, of a benchmark before.
+    // matrix() restores its values, as an earlier benchmark may have left those
+    // of a deformed body.
     const BlockMatrix &values = matrix();
     if (!the_rows)
       the_rows.emplace(values);

@@ -44,12 +44,12 @@ namespace corotet::benchmarks
     Problem &
     problem();
 
-    /// K, clamped: c_K = 1, c_M = 0, with the rotations of the state of
-    /// solves.
+    /// The operator K with clamped rows: c_K = 1, c_M = 0, with the rotations
+    /// of the state of solves.
     EffectiveOperator &
     effective();
 
-    /// The same, assembled.
+    /// The assembled matrix of that operator.
     const BlockMatrix &
     matrix();
 
@@ -59,7 +59,7 @@ namespace corotet::benchmarks
     const RegisterBlocks &
     blocks();
 
-    /// Times [s] and memory [bytes] that it took to make the assembled matrix.
+    /// Time [s] and memory [bytes] of the assembly of the matrix.
     const Counters &
     assembly_figures()
     {
@@ -76,8 +76,8 @@ namespace corotet::benchmarks
     Counters                           figures;
   };
 
-  /// The preconditioner that parameter files call @p type, with @p parameters
-  /// as its subsection has them.
+  /// The preconditioner with the name @p type, and with @p parameters as in its
+  /// subsection.
   std::unique_ptr<Preconditioner>
   make_preconditioner(const std::string &type,
                       const std::string &parameters = "");
@@ -99,31 +99,31 @@ namespace corotet::benchmarks
     return control.last_step();
   }
 
-  /// y = K x: the matrix formats and the matrix-free operators.
+  /// Adds y = K x: the matrix formats and the matrix-free operators.
   void
   add_operators(CaseData &data);
 
-  /// The same by deal.II's MatrixFree, of straight bodies.
+  /// Adds y = K x by deal.II's MatrixFree, for straight bodies.
   void
   add_deal_matrix_free(CaseData &data);
 
-  /// Rotations, matrices, set-up and explicit steps of a deformed beam.
+  /// Adds rotations, matrices, set-up and explicit steps of a deformed beam.
   void
   add_updates(CaseData &data);
 
-  /// Linear static solves.
+  /// Adds linear static solves.
   void
   add_solvers(CaseData &data);
 
-  /// Implicit steps in dynamics.
+  /// Adds implicit steps in dynamics.
   void
   add_dynamics(CaseData &data);
 
-  /// What Trilinos does with the assembled matrix; with Epetra only.
+  /// Adds solves by Trilinos with the assembled matrix; only with Epetra.
   void
   add_epetra(CaseData &data);
 
-  /// Peak memory of a process that does nothing else.
+  /// Adds the peak memory of a process that does nothing else.
   void
   add_memory(CaseData &data);
 } // namespace corotet::benchmarks

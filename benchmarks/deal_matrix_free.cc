@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// y = K x by deal.II's own matrix-free operators: what corotet's kernels are
-// there to be faster than. Elements whose degree is known at run time only, as
-// tetrahedra are to FEEvaluation, are evaluated by functions of deal.II's
-// library, compiled for any machine; with their templates they are compiled
-// here, for the machine that corotet's kernels are compiled for.
+// y = K x by deal.II's own matrix-free operators, which corotet's kernels are
+// meant to outperform. Elements whose degree is known at run time only, as for
+// FEEvaluation on tetrahedra, are evaluated by functions of deal.II's library,
+// compiled for any machine; with their templates they are compiled here, for
+// the machine that corotet's kernels are compiled for.
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_tools.h>
@@ -20,13 +20,13 @@ namespace corotet::benchmarks
 {
   namespace
   {
-    /// Largest difference to the factored kernel, relative to the largest
-    /// entry: what round-off may make of sums of some hundred terms.
+    /// The largest difference to the factored kernel, relative to the largest
+    /// entry: a bound of the round-off of sums of some hundred terms.
     constexpr double largest_deal_difference = 1e-12;
 
-    /// Exact for products of two gradients, of degree 2(p-1): 1, 4 and 14
-    /// points, those of corotet's quadrature. dealii::MatrixFree refuses rules
-    /// that it does not know.
+    /// A rule that is exact for products of two gradients, of degree 2(p-1): 1,
+    /// 4 and 14 points, as in corotet's quadrature. dealii::MatrixFree refuses
+    /// other rules than its own.
     dealii::Quadrature<3>
     stiffness_quadrature(const unsigned int degree)
     {
@@ -71,7 +71,8 @@ namespace corotet::benchmarks
         materials.resize(cells.n_cell_batches());
         for (unsigned int batch = 0; batch < materials.size(); ++batch)
           {
-            // Others would have a Jacobian for each point, and take longer.
+            // Curved cells would have a Jacobian for each point, and take
+            // longer.
             AssertThrow(
               cells.get_mapping_info().get_cell_type(batch) <=
                 dealii::internal::MatrixFreeFunctions::GeometryType::affine,
@@ -88,7 +89,7 @@ namespace corotet::benchmarks
           }
       }
 
-      /// Gives @p vector the ghosts that this operator wants; owned entries
+      /// Gives @p vector the ghosts that this operator needs; owned entries
       /// remain.
       void
       adapt(Vector &vector) const
@@ -158,7 +159,7 @@ namespace corotet::benchmarks
   void
   add_deal_matrix_free(CaseData &data)
   {
-    // It knows no rotations.
+    // This operator has no rotations.
     if (data.which().bend != 0)
       return;
     const auto make = [&data](Application &a) {
@@ -167,7 +168,7 @@ namespace corotet::benchmarks
       data.effective().vmult(a.expected, a.x);
       K->adapt(a.x);
       K->adapt(a.y);
-      // Besides the vectors: inverse Jacobians with their determinants, two
+      // Moved besides the vectors are inverse Jacobians with determinants, two
       // moduli, and numbers of unknowns instead of nodes.
       Counters counters =
         matrix_free_counters(p,

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Writes doc/measurements.md and its pictures from the JSON file of a run, and from nothing else."""
+"""Writes doc/measurements.md and its pictures, using only the JSON file of a
+run."""
 
 import shutil
 import textwrap
@@ -41,7 +42,7 @@ def caches(machine):
 
 
 def page(document, ratios, pictures):
-    """The page as text. @p pictures: names of those that there are."""
+    """The page as text. @p pictures has the names of the existing pictures."""
     results, machine = document["results"], document["machine"]
     bits = results.get("machine/multiply_add_double", {}).get("simd_bits", 0)
     parts = [HEAD.format(date=str(document["date"])[:10], cpus=machine.get("num_cpus"), bits=int(bits),

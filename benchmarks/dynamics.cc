@@ -16,7 +16,7 @@ namespace corotet::benchmarks
   {
     constexpr double dynamic_tolerance = 1e-6;
 
-    /// A run as the program makes it, without its driver: the straight beam is
+    /// A run like that of the program, without its driver: the straight beam is
     /// released and falls.
     struct Run
     {
@@ -75,8 +75,8 @@ namespace corotet::benchmarks
       double                                time = 0;
     };
 
-    /// Time of a Newton iteration, all that belongs to it included; the first
-    /// step, which sets up everything, is not.
+    /// The time of a Newton iteration with all that belongs to it, but without
+    /// the first step, which sets up everything.
     Counters
     newton_iterations(CaseData          &data,
                       const std::string &solver,
@@ -104,9 +104,9 @@ namespace corotet::benchmarks
 
     /**
      * One backward Euler step from rest in the bent state, with one Newton
-     * iteration: rotations, forces, matrix, preconditioner (its numbers; their
-     * patterns are those of the step before) and solution of (K + M / dt^2) du
-     * = weight - f(u).
+     * iteration: rotations, forces, matrix, preconditioner (new numbers in the
+     * patterns of the step before) and solution of (K + M / dt^2) du = weight -
+     * f(u).
      */
     Counters
     backward_euler_step(CaseData &data, const std::string &solver)
@@ -131,8 +131,8 @@ namespace corotet::benchmarks
             conjugate_gradients(A, du, r, *P, dynamic_tolerance);
         });
       };
-      // The first one also finds patterns, of the preconditioner as of the
-      // matrix; like all that follow, the second one has them.
+      // The first step also finds the patterns of matrix and preconditioner,
+      // which the second one, like all later ones, reuses.
       result["first_s"]  = seconds(step);
       result["seconds"]  = seconds(step);
       result["unknowns"] = problem.n_unknowns();

@@ -7,15 +7,20 @@ Run it inside of scripts/toolchain:
 
     benchmarks/end_to_end.py [--program PROGRAM] [--ranks 1 2] [--repetitions 2] [--quick] [--largest] [--document]
 
-Times are those of the fastest run; set-up goes from the arrays of the mesh to the first application of the operator, reading apart. The
-processor's time is that of all processes, gmsh's included, which reads the file, and the launcher's. Memory is the most that each rank
-has had, or gmsh's process, which rank 0 waits for, if that had more.
+Times are those of the fastest run; set-up goes from the arrays of the mesh to
+the first application of the operator, without reading. The processor's time is
+that of all processes, including the launcher and gmsh, which reads the file.
+Memory is the peak of each rank, or of gmsh's process, which rank 0 waits for,
+if that had more.
 
-The status is 1 if set-up on one rank takes more than 2 s for a million cells of degree 1, 4 s of degree 2 or 3; if at degree 2 or 3
-set-up and output take longer than the solution; if one rank has more than 1,500 bytes for an unknown of degree 1, 350 of degree 2, or 300
-of degree 3; or if a rank has more than 1.3 times the memory of the mean one. --quick takes meshes of an eighth and judges nothing.
---largest is ten million cells of degree 1, on the most ranks of --ranks. --document writes the table into doc/scaling.md, with --largest
-that one.
+The status is 1 if set-up on one rank takes more than 2 s for a million cells of
+degree 1, 4 s of degree 2 or 3; if at degree 2 or 3 set-up and output take
+longer than the solution; if one rank has more than 1,500 bytes for an unknown
+of degree 1, 350 of degree 2, or 300 of degree 3; or if a rank has more than 1.3
+times the memory of the mean one. --quick takes meshes of an eighth and checks
+no limits. --largest runs only ten million cells of degree 1, on the largest
+number in --ranks. --document writes the table, or with --largest that one, into
+doc/scaling.md.
 """
 
 import argparse
@@ -35,14 +40,14 @@ from readers import MESHED_BOX, gmsh  # pylint: disable=wrong-import-position
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "scaling.md"
-# Degrees, and cuboids in each direction, each of six cells.
+# The degree, and the number of cuboids in each direction, of six cells each.
 BODIES = [(1, 68), (2, 34), (3, 23), (2, 62), (3, 41)]
-# By degree, for an unknown, on one rank.
+# The most bytes for an unknown on one rank, by degree.
 MOST_BYTES = {1: 1500, 2: 350, 3: 300}
 CUBOIDS_OF_LARGEST = 119
 MOST_SETUP = {1: 2, 2: 4, 3: 4}
 MOST_OVER_MEAN = 1.3
-# Starts a rank, and says what memory it had in the end.
+# Starts a rank, and writes how much memory it has used.
 RANK = """import os, resource, subprocess, sys
 status = subprocess.call(sys.argv[2:])
 open(f"{sys.argv[1]}/rank.{os.getpid()}", "w").write(str(1024 * resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss))
@@ -64,7 +69,7 @@ def run(program, folder, ranks):
 
 
 def judge(degree, ranks, summary, memory):
-    """What is not as it should be."""
+    """Lines on figures that exceed their limits."""
     times, found = summary["wall_time"], []
     setup = times["setup"] - times["read"]
     each = 1e6 * setup / summary["cells"]
@@ -92,7 +97,7 @@ def row(degree, ranks, fastest):
 
 
 def measure(options, folder):
-    """Rows of the table, and what is not as it should be."""
+    """The rows of the table, and lines on figures that exceed their limits."""
     heads = ["degree", "ranks", "cells", "unknowns", "iterations", "reading", "set-up", "for a million cells", "assembly", "solution",
              "output", "whole", "processor", "MB", "bytes for an unknown", "largest rank over mean"]
     lines, mistakes = ["| " + " | ".join(heads) + " |", "|" + "---:|" * len(heads)], []

@@ -30,7 +30,8 @@ namespace corotet::benchmarks
                                           "set Coarse solver = amg"));
       },
       3);
-    // The usual way.
+    // This is the usual way: conjugate gradients with the assembled matrix and
+    // ML.
     add_long(data.name("solve/cg_ml"), [&data] {
       const EpetraMatrix matrix(data.matrix());
       return solve(data, matrix, *make_preconditioner("amg"));

@@ -108,7 +108,7 @@ namespace corotet
 
 namespace corotet::benchmarks
 {
-  /// Operations of the factored kernel for one cell, counted while it runs.
+  /// The operations of the factored kernel for one cell, counted while it runs.
   template <int p, bool with_stiffness, bool with_mass>
   double
   factored_flops()
@@ -131,8 +131,8 @@ namespace corotet::benchmarks
     return Counted::n_operations;
   }
 
-  /// Operations of the change to Bernstein's basis and of its transpose, of one
-  /// component, counted while they run.
+  /// The operations of the change to Bernstein's basis and of its transpose,
+  /// for one component, counted while they run.
   template <int p>
   double
   basis_change_flops()

@@ -7,11 +7,14 @@ scripts/toolchain:
 
     benchmarks/hard_bodies.py [--program PROGRAM] [--repetitions 2] [--ranks 1] [--quick] [--document]
 
-Times are those of the matrix, the solver's set-up and the solution, of the fastest run; memory is the most that the process has had.
-`bent` are the iterations of the same solver where the body is bent to a quarter of a circle, along x: those of the first linear solve from
-there, with the rotations of cells (`corotational`); none where cells would be inside out.
-`amg` gets 1,000 iterations, 20 seconds and one run; it and `direct` have no figures above 150,000 unknowns. --quick leaves out degree 3
-and large bodies. --document writes the table into doc/algorithms.md.
+Times are those of the matrix, the solver's set-up and the solution, of the
+fastest run; memory is the most that the process has had. `bent` are the
+iterations of the same solver for the body bent to a quarter of a circle, along
+x, in the first linear solve from there, with the rotations of cells
+(`corotational`); there is no figure where cells would be inverted. `amg` gets
+1,000 iterations, 20 seconds and one run; it and `direct` have no figures above
+150,000 unknowns. --quick leaves out degree 3 and large bodies. --document
+writes the table into doc/algorithms.md.
 """
 
 import argparse
@@ -39,7 +42,8 @@ PAGE = ROOT / "doc" / "algorithms.md"
 BEAM = box("4, 1, 1", "28, 7, 7")
 # Unknowns above which whole matrices take gigabytes.
 MOST_OF_MATRICES = 150000
-# Name, mesh, Poisson's ratio; the first is well-shaped.
+# Name, mesh and Poisson's ratio of each body; the cells of the first are
+# well-shaped.
 BODIES = [
     ("beam of well-shaped cells", BEAM, 0.3),
     ("plate 1 x 1 x 0.01 of 10 x 10 x 1 cuboids", box("1, 1, 0.01", "10, 10, 1"), 0.3),
@@ -69,7 +73,8 @@ subsection Linear solver
 {options}end
 """
 POINTS = "  subsection p-multigrid\n    set Vertex rotations = false\n  end\n"
-# Name: Type, further entries, most iterations, most seconds, runs at most.
+# Name of each solver: type, further entries, most iterations, most seconds,
+# most runs.
 SOLVERS = {
     "points": ("p-multigrid", POINTS, 20000, None, 1),
     "p-multigrid": ("p-multigrid", "", 20000, None, 9),
@@ -77,7 +82,8 @@ SOLVERS = {
     "direct": ("direct", "", 20000, None, 1),
     "amg": ("amg", "", 1000, 20, 1),
 }
-# Bends a body of that length, whose middle is at z = middle. One iteration of Newton's method, without inertia to speak of.
+# Bends a body of a given length, whose middle is at z = middle, in one
+# iteration of Newton's method with negligible inertia.
 BENT = """subsection Initial conditions
   set Displacement = ({radius} - (z - {middle}))*sin(x/{radius}) - x; 0; {radius} - ({radius} - (z - {middle}))*cos(x/{radius}) - (z - {middle})
 end
@@ -96,8 +102,9 @@ Mesh.OptimizeNetgen = 0;
 
 
 def write_slivers(path, n_points):
-    """Delaunay cells of random points of a box of 4 x 1 x 1 m: a quarter of them on its surface, those without volume left out."""
-    vtkObject.GlobalWarningDisplayOff()  # of degenerate triangles
+    """Delaunay cells of random points in a box of 4 x 1 x 1 m, a quarter of
+    them on its surface. Cells without volume are left out."""
+    vtkObject.GlobalWarningDisplayOff()  # no warnings of degenerate triangles
     random, size = np.random.default_rng(1), np.array([4.0, 1.0, 1.0])
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * size
     on_surface = random.random((n_points // 4, 3)) * size
@@ -124,14 +131,15 @@ def write_slivers(path, n_points):
 
 @functools.cache
 def has_solver(program, name):
-    """Whether this program has it: `amg` needs an optional part of the build."""
+    """Whether this program has the solver: `amg` needs an optional part of the
+    build."""
     parameters = subprocess.run([program, "--print-parameters", "markdown"], capture_output=True, text=True, check=True).stdout
     allowed = re.search(r"## Linear solver\n.*?\| Type \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)
     return name in allowed.split(", ")
 
 
 def measure(options, folder, mesh, degree, poisson):
-    """Of each solver the fastest run."""
+    """The fastest run of each solver."""
     found = {}
     too_large = False
     for name, (solver, entries, most, most_seconds, n_runs) in SOLVERS.items():
@@ -160,7 +168,8 @@ def bent_iterations(options, folder, mesh, degree, poisson):
     except RuntimeError as error:
         if "inside out" in str(error):
             return "-"
-        # What springs back by one linear step may have energy from nowhere.
+        # A body that springs back in one linear step may gain energy that no
+        # work explains.
         if "the motion is unstable" not in str(error):
             raise
     log = (folder / "results" / "log.txt").read_text(encoding="utf-8")

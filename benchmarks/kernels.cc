@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is done per cell, on data that stay in the first-level cache.
+// Operations on cells, with data that stay in the first-level cache.
 
 #include <corotet/material/polar_decomposition_simd.h>
 #include <corotet/operators/quadrature_kernel.h>
@@ -27,7 +27,7 @@ namespace corotet::benchmarks
 
     using Gradients = std::vector<dealii::Tensor<2, 3>>;
 
-    /// Rotations by any angle times stretches of some ten percent.
+    /// Random rotations by any angle, times stretches of some ten percent.
     Gradients
     deformation_gradients()
     {
@@ -49,7 +49,7 @@ namespace corotet::benchmarks
       return result;
     }
 
-    /// Cells whose data stay in the first-level cache, n registers of them.
+    /// n registers of cells whose data stay in the first-level cache.
     template <typename Kernel>
     struct Cells
     {
@@ -120,7 +120,7 @@ namespace corotet::benchmarks
       using Kernel = QuadratureKernel<bernstein::size<p>>;
       using V      = typename Kernel::V;
 
-      /// [3 row + column]
+      /// The rotations of a register of cells: [3 row + column][lane].
       struct alignas(sizeof(V)) Rotations
       {
         double rotation[9][batch_size];
@@ -230,7 +230,7 @@ namespace corotet::benchmarks
         n_lanes<double>);
     }
 
-    /// The rotations of all lanes at once.
+    /// Adds the decomposition of all lanes at once.
     void
     add_polar_decomposition_simd()
     {

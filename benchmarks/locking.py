@@ -28,7 +28,7 @@ from program_runs import document  # pylint: disable=wrong-import-position
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "physics.md"
 RATIOS = (0.3, 0.45, 0.49, 0.499, 0.4999, 0.49999)
-# Degree, whose dilatation, refinements.
+# Each element: degree, placement of the dilatation, refinements.
 ELEMENTS = {
     "degree 1, `cells`": (1, "cells", 3),
     "degree 1, `vertices`": (1, "vertices", 3),
@@ -81,13 +81,15 @@ def relative_error(found, exact):
 
 
 def last_state(results, series):
-    """Positions at rest, displacement and mean normal stress."""
+    """Positions at rest, displacement and mean normal stress of the last
+    state."""
     with h5py.File(results / series / "mesh.h5", "r") as mesh, h5py.File(max((results / series).glob("step_*.h5")), "r") as state:
         return mesh["Points"][:], state["PointData/displacement"][:], state["PointData/stress"][:, :3].mean(axis=1)
 
 
 def solve(program, folder, ratio, element):
-    """Unknowns, iterations, errors of displacement, raw and recovered pressure."""
+    """The number of unknowns, the iterations, and the errors of displacement,
+    raw and recovered pressure."""
     degree, dilatation, refinements = element
     lame, mu = ratio / ((1 + ratio) * (1 - 2 * ratio)), 1 / (2 * (1 + ratio))
     half = PRESSURE / 2 / lame

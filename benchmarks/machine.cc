@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What this machine can do at best, for the roofline: STREAM's triad (McCalpin
-// 1995) in main memory and in the second-level cache, and multiply-adds. On
-// several ranks all do it at the same time.
+// Upper limits of this machine for the roofline: STREAM's triad (McCalpin 1995)
+// in main memory and in the second-level cache, and multiply-adds. With several
+// ranks all measure at the same time.
 
 #include <corotet/base/simd.h>
 
@@ -37,7 +37,7 @@ namespace corotet::benchmarks
 
     struct Triad
     {
-      /// Three arrays with @p bytes together.
+      /// Allocates three arrays with @p bytes together.
       explicit Triad(const double bytes)
         : a(static_cast<std::size_t>(bytes / 24), 1.)
         , b(a)
@@ -68,13 +68,13 @@ namespace corotet::benchmarks
       });
     }
 
-    // As many independent chains of multiply-adds as cover their latency.
+    // Runs enough independent chains of multiply-adds to cover their latency.
     template <typename T>
     __attribute__((noinline)) void
     multiply_add(const int steps)
     {
       constexpr int chains = 16;
-      // Not known to the compiler.
+      // volatile hides these values from the compiler.
       const volatile T factor = 0.999, summand = 1e-3;
       const Simd<T>    m = broadcast<T>(factor), s = broadcast<T>(summand);
       Simd<T>          x[chains];
@@ -108,7 +108,8 @@ main(int argc, char **argv)
 {
   using namespace corotet::benchmarks;
   const Session session(argv);
-  // Far more than the last cache holds, if that leaves memory to others.
+  // The arrays are far larger than the last cache, if others keep enough
+  // memory.
   add_triad("machine/triad_memory",
             std::clamp(2 * cache_size(3), 4e8, 2.4e9) / n_ranks());
   add_triad("machine/triad_cache", cache_size(2) / 2);

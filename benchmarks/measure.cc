@@ -16,7 +16,7 @@ namespace corotet::benchmarks
 {
   namespace
   {
-    /// Shows nothing: for ranks other than 0.
+    /// A reporter that shows nothing, for ranks other than 0.
     class Silence : public benchmark::BenchmarkReporter
     {
     public:
@@ -41,7 +41,8 @@ namespace corotet::benchmarks
 
   namespace
   {
-    // One iteration each, which @p measure times itself.
+    // Registers repetitions of one iteration each, which @p measure times
+    // itself.
     template <typename Measure>
     void
     add(const std::string        &name,
@@ -79,8 +80,7 @@ namespace corotet::benchmarks
       name,
       [=](benchmark::State &state) {
         const Measured measured = prepare();
-        // Also warms the caches; the same on all
-        // ranks.
+        // This call also warms the caches; its time is the same on all ranks.
         const double once = seconds(measured.action);
         const int n = std::clamp(static_cast<int>(duration / once), 1, 1000000);
         for (auto _ : state)

@@ -14,8 +14,9 @@
 
 namespace corotet::benchmarks
 {
-  /// MPI from its construction to its destruction. It is told the program's
-  /// name only: arguments would go to PETSc, which warns of unknown ones.
+  /// Initializes MPI, and finalizes it at its destruction. MPI gets only the
+  /// program's name: other arguments would go to PETSc, which warns of unknown
+  /// ones.
   class Session
   {
   public:
@@ -33,10 +34,10 @@ namespace corotet::benchmarks
     dealii::Utilities::MPI::MPI_InitFinalize mpi;
   };
 
-  /// Figures that are reported beside the time, by name.
+  /// Figures that are reported with the time, by their names.
   using Counters = std::map<std::string, double>;
 
-  /// Wall time [s] that @p action takes on the slowest rank. Collective.
+  /// The wall time [s] that @p action takes on the slowest rank. Collective.
   double
   seconds(const std::function<void()> &action);
 
@@ -71,25 +72,25 @@ namespace corotet::benchmarks
                   const unsigned int               repetitions = 3,
                   const double                     duration    = 0.3);
 
-  /// Registers a benchmark of something long, which is done @p repetitions
-  /// times. It returns its figures; "seconds" is the time that is reported. An
-  /// exception, which all ranks must throw, is reported instead.
+  /// Registers a benchmark of something long, which runs @p repetitions times.
+  /// It returns its figures; "seconds" is the reported time. An exception,
+  /// which all ranks must throw, is reported instead.
   void
   add_long(const std::string               &name,
            const std::function<Counters()> &action,
            const unsigned int               repetitions = 1);
 
-  /// Runs what is registered, as Google Benchmark's arguments say. Rank 0 shows
-  /// and writes the results. Collective.
+  /// Runs the registered benchmarks that Google Benchmark's arguments select.
+  /// Rank 0 shows and writes the results. Collective.
   int
   run(int argc, char **argv);
 
-  /// Largest resident memory of this process so far [bytes]; not that of the
-  /// program that started it.
+  /// The largest resident memory of this process so far [bytes]; not that of
+  /// the program that started it.
   double
   peak_memory();
 
-  /// Resident memory of this process [bytes].
+  /// The resident memory of this process [bytes].
   double
   present_memory();
 } // namespace corotet::benchmarks

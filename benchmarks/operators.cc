@@ -101,7 +101,8 @@ namespace corotet::benchmarks
       });
     }
 
-    /// Its vectors are its own, so the row is made by hand.
+    /// Adds the row in single precision, separately, as it has vectors of its
+    /// own.
     void
     add_single_precision(CaseData &data)
     {

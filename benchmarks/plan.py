@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""What `make bench` runs and what it must show: cases, runs and required ratios. Adding one is adding a line."""
+"""The cases and runs of `make bench`, and the ratios that it requires. To add
+one, add a line."""
 
 from dataclasses import dataclass, field
 
@@ -43,7 +44,8 @@ CASES = {
     "P2/840k-bracket": Case(2, element_size=0.0013),
 }
 
-# Bodies that are hard to precondition, of some 60,000 unknowns, by name. The last has cells of aspect ratio 10.
+# Bodies of some 60,000 unknowns that are hard to precondition, by name. The
+# last one has cells of aspect ratio 10.
 HARD = {
     "bent": ("--bend", "1.5707963"),
     "nu-0.45": ("--poissons-ratio", "0.45"),
@@ -55,7 +57,7 @@ for _name, _arguments in HARD.items():
     CASES[f"P3/60k-{_name}"] = Case(3, (9, 9, 9) if _flat else (40, 4, 4), arguments=_arguments)
     CASES[f"P2/60k-{_name}"] = Case(2, (13, 13, 13) if _flat else (60, 6, 6), arguments=_arguments)
 
-# Cases that stand for the large ones when there is little time. Ratios get no verdict then.
+# Small cases that replace large ones with --quick. Ratios get no verdict then.
 QUICK_CASES = {
     "P3/240k": "P3/60k",
     "P3/840k": "P3/60k",
@@ -112,10 +114,10 @@ RUNS = [
 
 @dataclass
 class Ratio:
-    """
-    A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS" on several ranks: their times, or with
-    ":COUNTER" one of their counters. Of a list it is the largest; without a denominator the numerator itself. With
-    `difference` the denominator is subtracted.
+    """ A required ratio. Numerator and denominator are benchmarks, "NAME@RANKS"
+    on several ranks: their times, or with ":COUNTER" one of their counters. A
+    list stands for its largest value; without a denominator the ratio is the
+    numerator. With `difference` the denominator is subtracted.
     """
 
     name: str
@@ -132,7 +134,8 @@ def iterations(labels, coarse="direct"):
 
 
 def hard(name):
-    """Most iterations of a hard body, of both degrees and all coarse solvers."""
+    """The iterations of a hard body, for both degrees and all coarse
+    solvers."""
     return [term for coarse in COARSE for term in iterations([f"P3/60k-{name}", f"P2/60k-{name}"], coarse)]
 
 
@@ -177,8 +180,10 @@ RATIOS = [
           at_most=600),
 ]
 
-# Largest relative difference between an operator and the same by quadrature.
+# The largest allowed relative difference between an operator and the same
+# operator by quadrature.
 DIFFERENCE = {"float": 1e-5, "": 1e-11}
-# Largest residual of a solve to 1e-8: that which conjugate gradients update drifts from the true one, by round-off of the
-# stiff part's forces where it hangs on a soft one.
+# The largest allowed residual of a solve to 1e-8: the residual that conjugate
+# gradients update drifts from the true one, by round-off of the forces of a
+# stiff part that hangs on a soft one.
 RESIDUAL = {"jump": 5e-6, "": 2e-7}

@@ -22,7 +22,8 @@ SOLVERS = {"p-multigrid": "CG + p-multigrid", "cg_ml": "CG + ML, assembled", "ja
 
 
 def applications(results):
-    """(degree, operator, result) of everything that ran on one rank."""
+    """Yields (degree, operator, result) of all operators that ran on one
+    rank."""
     for name, result in results.items():
         operator = tables.operator_of(name)
         if operator is not None and result["ranks"] == 1:
@@ -35,7 +36,7 @@ def save(figure, path):
 
 
 def show_legend(axes):
-    """Beside the last of the axes, of all of them."""
+    """Shows one legend for all axes, beside the last of them."""
     entries = {}
     for axis in axes:
         for handle, label in zip(*axis.get_legend_handles_labels()):

@@ -48,7 +48,7 @@ namespace corotet::benchmarks
   double
   first_period()
   {
-    // Square of the first root of cos(k) cosh(k) = -1.
+    // The square of the first root of cos(k) cosh(k) = -1.
     const double k2 = 1.875104068711961 * 1.875104068711961;
     return 2 * std::numbers::pi / k2 * length * length / height *
            std::sqrt(12 * density / youngs_modulus);
@@ -96,7 +96,8 @@ namespace corotet::benchmarks
       return mesh;
     }
 
-    // Where the point x of the straight beam is when it is bent to an arc.
+    // The position of the point @p x of the straight beam after it is bent to
+    // an arc.
     Point<3>
     bend(const Point<3> &x, const double angle)
     {
@@ -110,7 +111,7 @@ namespace corotet::benchmarks
               x[2] + offset * (1 - std::cos(phi))};
     }
 
-    // The displacement that a map of positions means.
+    // The displacement for a map of positions.
     template <typename Map>
     Vector
     displacement(const Discretization &discretization, const Map &map)

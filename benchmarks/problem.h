@@ -22,7 +22,7 @@ namespace corotet::benchmarks
   constexpr double standard_fall  = 9.81;
 
   /**
-   * Which body, and the label that its benchmarks are known by.
+   * The body of a case, and the label of its benchmarks.
    */
   struct Case
   {
@@ -30,16 +30,18 @@ namespace corotet::benchmarks
     unsigned int degree = 3;
     /// Cuboids in each direction of the beam, five tetrahedra each.
     std::array<unsigned int, 3> cells = {{24, 3, 3}};
-    /// Not empty: a mesh that gmsh reads or makes, instead of the beam, with
-    /// elements of that size [m] if it is not 0.
+    /// The name of a mesh file or geometry to be used instead of the beam, if
+    /// not empty, with elements of size @p element_size [m] if that is not 0.
     std::string mesh;
     double      element_size = 0;
-    /// The boundary where x = 0.
+    /// The name of the boundary where x = 0.
     std::string clamped        = "x-min";
     double      poissons_ratio = 0.3;
-    /// Stiffness of the half that is not clamped, over that of the other.
+    /// The stiffness of the half that is not clamped, relative to the clamped
+    /// one.
     double jump = 1;
-    /// The state of solves: bent to an arc of that angle [rad].
+    /// The angle [rad] of the arc to which the beam is bent in the state of
+    /// solves.
     double bend = 0;
   };
 
@@ -52,25 +54,25 @@ namespace corotet::benchmarks
   SerialMesh
   serial_mesh(const Case &c);
 
-  /// Period of the first bending mode [s], by Euler and Bernoulli.
+  /// The period of the first bending mode [s], by Euler-Bernoulli theory.
   double
   first_period();
 
-  /// What bodies of benchmarks are made of beside their meshes.
+  /// The input of a body, besides its mesh.
   struct ProblemInput
   {
-    /// @p text: as a parameter file has it.
+    /// @p text is that of a parameter file.
     explicit ProblemInput(const std::string &text);
 
     Log                      log;
     dealii::ParameterHandler prm;
     SimulationParameters     parameters;
-    /// Resident memory when the serial mesh had been made, and nothing else
-    /// [bytes, of all ranks].
+    /// Resident memory when only the serial mesh had been made [bytes, of all
+    /// ranks].
     double memory_at_start = 0;
   };
 
-  /// The entries of element, material and supports.
+  /// The entries for element, material and supports.
   std::string
   body_text(const Case &c);
 
@@ -120,7 +122,7 @@ namespace corotet::benchmarks
     void
     clamp(Vector &vector) const;
 
-    /// The same body with rotations taken elsewhere.
+    /// The same body with another law, so other rotations.
     std::unique_ptr<Elasticity>
     elasticity_with(const std::shared_ptr<const MaterialLaw> &law) const;
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the scripts of this folder that run the program share: a case, its start on several ranks, linear solves, and tables in pages."""
+"""Tools that the scripts of this folder share to run the program: cases, runs
+on several ranks, linear solves, and tables in pages."""
 
 import json
 import os
@@ -27,7 +28,8 @@ subsection Output
   set Overwrite = true
 end
 {more}"""
-# More of a case: degree 1 as on large bodies.
+# Entries to add to a case: degree 1 is solved like a large body, by
+# aggregation.
 BY_AGGREGATION = """subsection Linear solver
   set Type = p-multigrid
   subsection p-multigrid
@@ -38,22 +40,24 @@ end
 
 
 def box(size, cells):
-    """Entries of a mesh: three numbers each, as text."""
+    """The entries of a box mesh; both arguments are three numbers as text."""
     return f"  set Type = box\n  subsection box\n    set Size  = {size}\n    set Cells = {cells}\n  end\n"
 
 
 def file(name):
-    """Entries of a mesh."""
+    """The entries of a mesh from a file."""
     return f"  set Type = file\n  subsection file\n    set File = {name}\n  end\n"
 
 
 def bent_body(mesh, degree, held, more=""):
-    """A parameter file: linear statics of a body that is held at one place and bent by its weight; `more` sections of it."""
+    """A parameter file for linear statics of a body that is held at one place
+    and bent by its weight, with `more` sections added."""
     return BENT_BODY.format(mesh=mesh, degree=degree, held=held, more=more)
 
 
 def launcher(ranks):
-    """The words before a program that start it on so many ranks: if these are more than there are cores, they let others go first."""
+    """The words before a program that start it on so many ranks. If there are
+    more ranks than cores, waiting ranks yield to others."""
     if ranks == 1:
         return []
     sharing = ["--oversubscribe", "--mca", "mpi_yield_when_idle", "1"] if ranks > os.cpu_count() else []
@@ -61,8 +65,9 @@ def launcher(ranks):
 
 
 def solve(program, folder, case, ranks, most_seconds=None):
-    """Runs the text of a parameter file. Unknowns, iterations, seconds of assembly, set-up of the solver and solve, MB; None if it takes
-    longer, or too many iterations."""
+    """Runs the text of a parameter file. Returns unknowns, iterations, seconds
+    of assembly, set-up of the solver and solution, and MB; None if it takes too
+    long, or too many iterations."""
     (folder / "case.prm").write_text(case, encoding="utf-8")
     command = [*launcher(ranks), os.path.abspath(program), "case.prm", "--output", "results", "--quiet"]
     try:

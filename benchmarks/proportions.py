@@ -6,8 +6,10 @@ side and bent by their weight, statics to the program's tolerance. Run it inside
 
     benchmarks/proportions.py [--ranks 1] [--repetitions 2] [--programs PROGRAM [PROGRAM]] [--quick] [--document]
 
-Programs take turns, so that one can be compared with an older one; of each the better time is taken. --quick leaves out large bodies.
---document writes the table of the first program into doc/algorithms.md. What all solvers take, of all degrees: hard_bodies.py.
+Programs take turns, so that one can be compared with an older one; the table
+has the fastest run of each. --quick leaves out large bodies. --document writes
+the table of the first program into doc/algorithms.md. For all solvers and
+degrees see hard_bodies.py.
 """
 
 import argparse
@@ -21,7 +23,7 @@ from program_runs import BY_AGGREGATION, bent_body, box, document, solve  # pyli
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAGE = ROOT / "doc" / "algorithms.md"
-# Size, cuboids.
+# The size and the cuboids of each body.
 BODIES = {
     "well-shaped": [("4, 1, 1", "40, 10, 10"), ("4, 1, 1", "80, 20, 20"), ("4, 1, 1", "140, 35, 35")],
     "flat by 10": [("1, 1, 0.1", "16, 16, 16"), ("1, 1, 0.1", "32, 32, 32")],

@@ -6,11 +6,13 @@ gmsh and here, and read by `corotet mesh`. Run it inside of scripts/toolchain:
 
     benchmarks/readers.py [--cells N] [--program PROGRAM] [--keep FOLDER] [--document]
 
-Memory is the largest sum of what the processes that there are at once had at most, less that for a mesh of a few cells. Surfaces have
-a hole, so that they are read and checked, and refused before anything is meshed; shapes of CAD are meshed coarsely, which belongs to
-their figures. The status is 1 if reading takes more than ten times the file's size and 200 MB, or a file that was cut off in its middle
-is not refused in one line that names it.
---document writes the table into doc/meshes.md.
+Memory is the sum of the peaks of all processes that exist at the same time,
+where it is largest, less that for a mesh of a few cells. Surfaces have a hole,
+so that they are read and checked, and refused before anything is meshed; shapes
+of CAD are meshed coarsely, which belongs to their figures. The status is 1 if
+reading takes more than ten times the file's size and 200 MB, or a file that was
+cut off in its middle is not refused in one line that names it. --document
+writes the table into doc/meshes.md.
 """
 
 import argparse
@@ -38,7 +40,7 @@ from vtk_grids import tetrahedra_grid  # pylint: disable=wrong-import-position
 PAGE = ROOT / "doc" / "meshes.md"
 ALLOWED_FACTOR, ALLOWED_BYTES = 10, 200e6
 
-# Name, ending, arguments of gmsh.
+# Name, ending, and arguments of gmsh.
 MESHES = [("gmsh 2.2, text", "msh", "-format", "msh22"), ("gmsh 2.2, binary", "msh", "-format", "msh22", "-bin"),
           ("gmsh 4.0, text", "msh", "-format", "msh40"), ("gmsh 4.1, text", "msh", "-format", "msh41"),
           ("gmsh 4.1, binary", "msh", "-format", "msh41", "-bin"), ("Abaqus, CalculiX", "inp", "-format", "inp"),
@@ -82,7 +84,7 @@ def open_sphere(n):
 
 
 def write_surfaces(folder, n):
-    """Files of all formats, by name."""
+    """Writes files of all surface formats; returns them by name."""
     points, triangles = open_sphere(n)
     files = {name: folder / f"surface_{i}.{name.split()[0].lower().rstrip(',')}"
              for i, name in enumerate(("STL, text", "STL, binary", "PLY, text", "PLY, binary", "OBJ", "OFF"))}
@@ -122,7 +124,8 @@ def box(n):
 
 
 def write_med(file, points, tetrahedra):
-    """One group of cells. The structure is that of MED 4.1 (https://docs.salome-platform.org)."""
+    """Writes a mesh with one group of cells. The structure is that of MED 4.1
+    (https://docs.salome-platform.org)."""
     step = "-0000000000000000001-0000000000000000001"
     with h5py.File(file, "w", track_order=True) as med:
         med.create_group("INFOS_GENERALES").attrs.update({"MAJ": np.int32(4), "MIN": np.int32(1), "REL": np.int32(0)})
@@ -149,7 +152,7 @@ def write_med(file, points, tetrahedra):
 
 
 def write_vtk_files(folder, points, tetrahedra):
-    """Files of both formats, as VTK writes them, by name."""
+    """Writes files of both formats with VTK; returns them by name."""
     grid = tetrahedra_grid(points, tetrahedra)
     files = {"VTK legacy, binary": folder / "bytes.vtk", "VTU, raw": folder / "raw.vtu", "VTU, compressed": folder / "compressed.vtu"}
     for name, file in files.items():
@@ -167,7 +170,7 @@ def write_vtk_files(folder, points, tetrahedra):
 
 
 def family(process):
-    """A process and all that it has started."""
+    """A process and all processes that it has started."""
     members, found = [], [process]
     while found:
         members += found
@@ -182,7 +185,8 @@ def family(process):
 
 
 def peak(process, parent):
-    """The most memory that it had so far [bytes]; none as long as it is a copy of its parent, about to start a program of its own."""
+    """The peak memory of a process [bytes]; 0 as long as it is a copy of its
+    parent that is about to start another program."""
     try:
         if process != parent and os.readlink(f"/proc/{process}/exe") == os.readlink(f"/proc/{parent}/exe"):
             return 0
@@ -195,7 +199,8 @@ def peak(process, parent):
 
 
 def read(program, file, *arguments):
-    """Status, what was said, memory [bytes] and seconds of processors."""
+    """Exit status, error text, memory [bytes] and processor time [s] of reading
+    a file."""
     with tempfile.TemporaryFile("w+", encoding="utf-8") as said:
         run = subprocess.Popen([program, "mesh", file, *arguments], stdout=subprocess.DEVNULL, stderr=said)
         most = 0
@@ -211,7 +216,8 @@ def read(program, file, *arguments):
 
 
 def tried(program, at_start, name, file, expected_status, *arguments):
-    """A row of the table, and whether all is as required. at_start: memory for a small mesh."""
+    """A row of the table, and whether all requirements are met. at_start is the
+    memory for a small mesh."""
     status, said, memory, seconds = read(program, file, *arguments)
     memory -= at_start
     size = file.stat().st_size

@@ -51,7 +51,8 @@ def command(run, options, output):
 
 
 def merge(document, ranks, results, failures):
-    """Adds the fastest repetition of each benchmark of a process, and to `failures` what failed."""
+    """Adds the fastest repetition of each benchmark of a process to `results`,
+    and failed ones to `failures`."""
     for entry in document["benchmarks"]:
         if entry.get("run_type") != "iteration":
             continue
@@ -66,7 +67,8 @@ def merge(document, ranks, results, failures):
 
 
 def execute(options):
-    """Runs all processes. Returns results by name, the machine as Google Benchmark sees it, and what went wrong."""
+    """Runs all processes. Returns results by name, the machine as Google
+    Benchmark describes it, and failures."""
     results, context, failures = {}, {}, []
     runs = [run for run in plan.RUNS if run.quick or not options.quick]
     for number, run in enumerate(runs, 1):
@@ -93,7 +95,8 @@ def execute(options):
 
 
 def value(term, results, quick):
-    """The number that a term of a ratio means, or None if it has not been measured."""
+    """The number that a term of a ratio stands for, or None if it has not been
+    measured."""
     if isinstance(term, list):
         values = [v for v in (value(t, results, quick) for t in term) if v is not None]
         return max(values) if values and (quick or len(values) == len(term)) else None
@@ -104,13 +107,14 @@ def value(term, results, quick):
 
 
 def split(name):
-    """The case and the benchmark of "P3/840k/solve/amg"."""
+    """The parts of a name: "P3/840k/solve/amg" has the case "P3/840k" and the
+    benchmark "solve/amg"."""
     words = name.split("/")
     return "/".join(words[:2]), "/".join(words[2:])
 
 
 def explain(term, amount):
-    """A term of a ratio with its unit."""
+    """The value of a term of a ratio, with its unit."""
     counter = (term[0] if isinstance(term, list) else term).partition(":")[2]
     if counter and not counter.endswith("_s"):
         return f"{amount:.4g}"
@@ -118,7 +122,8 @@ def explain(term, amount):
 
 
 def judge(results, quick):
-    """Rows of the table of ratios: name, measured, of what, prototype, required, verdict."""
+    """The rows of the table of ratios: name, measured value, terms, prototype,
+    requirement, verdict."""
     rows = []
     for ratio in plan.RATIOS:
         above = value(ratio.numerator, results, quick)
@@ -143,7 +148,7 @@ def judge(results, quick):
 
 
 def wrong_results(results):
-    """What the benchmarks computed wrongly: a fast wrong answer is none."""
+    """Results that are wrong: a fast wrong answer does not count."""
     found = []
     for name, result in results.items():
         for what, limits in (("difference", plan.DIFFERENCE), ("residual", plan.RESIDUAL)):

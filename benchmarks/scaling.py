@@ -5,9 +5,12 @@
 
     benchmarks/scaling.py [--program PROGRAM] [--most-ranks 16] [--cells 4] [--document]
 
-Linear statics of beams of --cells^3 times four cuboids for each rank, degrees 1 to 3, on 1, 2, 4, .. ranks, and on one; more than there are
-cores share these, so of them only iterations and memory count. The model takes the times of one rank and of two and computes those of
-up to 1,024 ranks for 1e9 unknowns; what it assumes is in doc/scaling.md, into which --document writes the tables.
+Linear statics of beams of --cells^3 times four cuboids for each rank, degrees 1
+to 3, on 1, 2, 4, .. ranks, and on one. If there are more ranks than cores,
+ranks share them, and only iterations and memory count. The model takes the
+times of one rank and of two and computes those of up to 1,024 ranks for 1e9
+unknowns; its assumptions are in doc/scaling.md, into which --document writes
+the tables.
 
 The status is 1 if a body takes more than two iterations more than on one rank, if the largest takes more than three more than the smallest, if
 one rank has more than 1.3 times the memory of the mean, or if the model is wrong by more than a third for two ranks.
@@ -28,29 +31,35 @@ from program_runs import BY_AGGREGATION, bent_body, box, document  # pylint: dis
 PAGE = ROOT / "doc" / "scaling.md"
 MOST_MORE_BY_RANKS, MOST_MORE_BY_SIZE = 2, 3
 MOST_ERROR = 1 / 3
-# Of the network between machines, for each rank: seconds for a message, bytes for a second.
+# The network between machines, for each rank: seconds for a message, and bytes
+# per second.
 LATENCY, BANDWIDTH = 2e-6, 1e9
-# Pieces of a curve that fills space touch about so many others.
+# The number of pieces that touch a piece of a space-filling curve, about.
 NEIGHBOURS = 14
-# From doc/algorithms.md ("Between ranks"): messages of an iteration to each neighbour, by degree, without and with a level of aggregation
-# each time that it is visited; and sums over all ranks.
+# Numbers from doc/algorithms.md ("Between ranks"): messages of an iteration to
+# each neighbour, by degree; messages of a level of aggregation each time that
+# it is visited; and sums over all ranks.
 MESSAGES, MESSAGES_OF_LEVEL, SUMS = {1: 2, 2: 20, 3: 38}, 8, 2
-# Points of a level for one of the next, as measured: of degree 1 alone and below others, of aggregates; and the most on the last level.
+# Measured numbers of points of a level for one of the next: for aggregates of
+# points (degree 1 alone, and below degrees 2 and 3), and for aggregates of
+# aggregates; and the most on the last level.
 POINTS_OF_AGGREGATE, AGGREGATES_OF_AGGREGATE, MOST_ON_LAST_LEVEL = {1: 49, 2: 14, 3: 14}, 60, 330
-# Unknowns for each cell of a large body of tetrahedra.
+# The number of unknowns for each cell in a large body of tetrahedra.
 UNKNOWNS_OF_CELL = {1: 0.53, 2: 4.2, 3: 13.9}
 LARGE = 1e9
 
 
 @dataclasses.dataclass
 class Rates:
-    """Of one degree, measured: seconds for each unknown of an iteration, and for each cell of set-up."""
+    """Measured rates of one degree: seconds of an iteration for each unknown,
+    and seconds of set-up for each cell."""
     iteration: float
     cell: float
 
 
 def cuboids(ranks, n):
-    """Of a body of 4 : 1 : 1 for each rank, doubled in turn along the shortest direction."""
+    """The cuboids of a body of 4 : 1 : 1 on one rank, which is doubled along
+    its shortest direction for each doubling of ranks."""
     cells = [4 * n, n, n]
     for _ in range(int(math.log2(ranks))):
         shortest = cells.index(min(cells))
@@ -59,7 +68,8 @@ def cuboids(ranks, n):
 
 
 def measure(options, folder, degree, ranks, n, parts=None):
-    """A body for as many ranks as there are parts, if not for the ranks that it is run on."""
+    """Runs a body as large as for `parts` ranks, by default for the ranks that
+    it runs on. Returns summary and memory."""
     cells = cuboids(parts or ranks, n)
     mesh = box(f"{cells[0] / cells[1]}, 1, 1", ", ".join(map(str, cells)))
     (folder / "case.prm").write_text(bent_body(mesh, degree, "x-min", BY_AGGREGATION), encoding="utf-8")
@@ -67,7 +77,7 @@ def measure(options, folder, degree, ranks, n, parts=None):
 
 
 def weak_scaling(options, folder):
-    """Lines of the table, and what is not as it should be."""
+    """The lines of the table, and lines on figures that exceed their limits."""
     lines = ["| degree | ranks | unknowns | iterations | on one rank | MB of the mean rank | largest over mean |", "|---:|" + "---:|" * 6]
     mistakes = []
     for degree in (1, 2, 3):
@@ -92,14 +102,16 @@ def weak_scaling(options, folder):
 
 
 def rates(alone, both):
-    """From runs on one rank and on two, with as many cells on each: set-up is that of two, which exchange cells in it."""
+    """The rates from runs on one rank and on two, with as many cells on each:
+    set-up is that of the latter, in which ranks exchange cells."""
     times, together = alone["wall_time"], both["wall_time"]
     return Rates(times["solve"] / alone["final"]["linear_iterations"] / alone["dofs"],
                  (together["setup"] - together["read"] + together["assembly"]) / (both["cells"] / 2))
 
 
 def visits(degree, unknowns):
-    """How often an iteration comes to a level of aggregation: twice as often as to the one above."""
+    """How often an iteration visits levels of aggregation: each level is
+    visited twice as often as the one above."""
     points = unknowns / 3 / degree**3 / POINTS_OF_AGGREGATE[degree]
     visited = result = 1
     while points > MOST_ON_LAST_LEVEL:
@@ -110,9 +122,11 @@ def visits(degree, unknowns):
 
 
 def predicted(degree, rate, unknowns, ranks):
-    """Seconds of an iteration: computing, messages, sums; and of set-up."""
+    """Predicted seconds of an iteration for computing, messages and sums; and
+    of set-up."""
     own = unknowns / ranks
-    # The surface of a cube, shared with the neighbours; displacements of 4 bytes.
+    # The part of a rank is a cube whose surface is shared with neighbours;
+    # displacements have 4 bytes.
     border = 6 * (own / 3) ** (2 / 3) * 3 * 4
     neighbours = min(NEIGHBOURS, ranks - 1)
     messages = MESSAGES[degree] * (neighbours * LATENCY + border / BANDWIDTH) if ranks > 1 else 0
@@ -123,7 +137,7 @@ def predicted(degree, rate, unknowns, ranks):
 
 
 def model(options, folder):
-    """Lines of the table, and what is not as it should be."""
+    """The lines of the table, and lines on figures that exceed their limits."""
     lines = ["| degree | ranks | unknowns on each | iteration: computing | messages | sums | efficiency | set-up |",
              "|---:|" + "---:|" * 7]
     mistakes = []

@@ -41,7 +41,7 @@ subsection Time integration
   set Time step = 0.02
 end
 """
-# States that are shown while the page plays for some seconds.
+# Counts the states that are shown while the page plays for some seconds.
 PLAY = """const done = arguments[0], slider = report.player.slider;
 let shown = 0, last = slider.value;
 const begin = performance.now();
@@ -55,7 +55,7 @@ requestAnimationFrame(count);"""
 
 
 def run_case(program, folder, triangles, ranks):
-    """Triangles, and seconds from the file to the page."""
+    """The number of triangles, and the seconds from the file to the page."""
     n_around = round((triangles / 28) ** 0.5)
     corners = trefoil(14 * n_around, n_around, 0.5)
     write_stl(folder / "scan.stl", corners)
@@ -66,7 +66,7 @@ def run_case(program, folder, triangles, ranks):
 
 
 def look(page):
-    """Seconds until the page is ready, and states that it shows in a second."""
+    """Seconds until the page is ready, and states that it shows per second."""
     browser = Browser()
     try:
         browser.set_size(1280, 800)

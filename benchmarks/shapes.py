@@ -71,8 +71,10 @@ def number(value):
 
 
 def solid(rng, tag, cut):
-    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper part of the unit cube, on which all of them are put, so
-    that most of the bottom stays; what is cut is smaller than what is added."""
+    """A primitive of OpenCASCADE as gmsh writes it. Its centre is in the upper
+    part of the unit cube, to which all primitives are applied, so that most of
+    the bottom stays; primitives that are cut out are smaller than those that
+    are added."""
     size = rng.uniform(0.1, 0.25) if cut else rng.uniform(0.15, 0.4)
     x, y, z = rng.uniform(0, 1), rng.uniform(0, 1), rng.uniform(0.55, 1)
     kind = rng.choice(("Box", "Cylinder", "Sphere", "Torus"))
@@ -92,7 +94,8 @@ def solid(rng, tag, cut):
 
 
 def geometry(seed):
-    """The .geo of a shape. It prints the number of its pieces."""
+    """The text of a .geo file with a random shape, which prints the number of
+    its pieces."""
     rng = random.Random(seed)
     lines = ['SetFactory("OpenCASCADE");', "Box(1) = {0, 0, 0, 1, 1, 1};", "body() = {1};"]
     for i in range(rng.randint(1, 4)):
@@ -108,8 +111,9 @@ def geometry(seed):
 
 
 def make_files(number_of_shape, folder):
-    """Writes the shape as STEP and as STL, a surface mesh. Returns the formats that gmsh could make. What falls into pieces, of which one
-    would have no support, is no shape: the next random one is taken."""
+    """Writes the shape as STEP and, as a surface mesh, as STL. Returns the
+    formats that gmsh could make. A shape that falls into pieces, one of which
+    would have no support, is replaced by the next random one."""
     for attempt in range(100):
         (folder / f"shape_{number_of_shape}.geo").write_text(geometry(f"{number_of_shape} {attempt}"), encoding="utf-8")
         run = run_gmsh(number_of_shape, folder, "step", "-0")
@@ -130,7 +134,7 @@ def run_gmsh(number_of_shape, folder, suffix, *arguments):
 
 
 def outcome(status, errors):
-    """In words, from how the program has ended."""
+    """The outcome in words, from the program's exit status and errors."""
     if status == 0:
         return "solved"
     said = re.findall(r"^corotet: error: (.*)$", errors, re.MULTILINE)
@@ -140,7 +144,7 @@ def outcome(status, errors):
 
 
 def solve(program, seed, suffix, folder):
-    """What becomes of a shape in a format, numbers of cells, and seconds."""
+    """The outcome for a shape in a format, the number of cells, and seconds."""
     case = folder / f"shape_{seed}_{suffix}.prm"
     size = ELEMENT_SIZE if suffix == "step" else 0
     case.write_text(CASE.format(file=f"shape_{seed}.{suffix}", size=size), encoding="utf-8")
@@ -157,12 +161,13 @@ def solve(program, seed, suffix, folder):
 
 
 def try_shape(program, seed, folder):
-    """By format; those that gmsh could not make are left out."""
+    """The outcomes by format; formats that gmsh could not make are left out."""
     return {suffix: solve(program, seed, suffix, folder) for suffix in make_files(seed, folder)}
 
 
 def table(results):
-    """Lines of Markdown, and whether all is as required."""
+    """The lines of a table in Markdown, and whether all requirements are
+    met."""
     lines = ["| format | shapes | solved | refused | lost | cells (median) | seconds (median, longest) |", "|---|---:|---:|---:|---:|---:|---:|"]
     good = True
     for suffix in FORMATS:

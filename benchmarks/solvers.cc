@@ -17,7 +17,7 @@ namespace corotet::benchmarks
     {
       const Vector  b    = data.problem().weight();
       const CsrView view = data.compressed_rows().view();
-      // A symmetric matrix in compressed rows is one in compressed columns.
+      // The compressed rows of a symmetric matrix are its compressed columns.
       using Columns = Eigen::SparseMatrix<double>;
       const Eigen::Map<const Columns>                    matrix(view.rows(),
                                              view.cols(),
@@ -62,7 +62,7 @@ namespace corotet::benchmarks
     const auto add = [&data](const std::string &name,
                              const std::string &type,
                              const std::string &parameters) {
-      // Each has the assembled matrix before, if it needs one at all.
+      // The assembled matrix is made before, for preconditioners that need it.
       const bool assemble = type != "p-multigrid" && type != "jacobi";
       add_long(
         data.name("solve/" + name),
@@ -104,7 +104,7 @@ namespace corotet::benchmarks
                    Vector       x(b);
                    const auto   P = make_preconditioner(type);
                    P->build(data.effective(), data.problem().state_of_solves());
-                   // Some iterations touch all that a solve needs.
+                   // Some iterations use all the memory that a solve needs.
                    result["seconds"]    = seconds([&] {
                      conjugate_gradients(data.effective(), x, b, *P, 0.1);
                    });

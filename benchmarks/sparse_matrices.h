@@ -13,7 +13,7 @@
 
 namespace corotet::benchmarks
 {
-  /// Compressed rows as Eigen sees them, in memory that belongs to others.
+  /// Compressed rows as Eigen uses them, in memory that belongs to others.
   using CsrView =
     Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor, int>>;
 
@@ -24,7 +24,7 @@ namespace corotet::benchmarks
   class CompressedRows
   {
   public:
-    /// @p matrix must live as long as this.
+    /// @p matrix must live as long as this object.
     explicit CompressedRows(const BlockMatrix &matrix);
 
     CsrView
@@ -44,7 +44,7 @@ namespace corotet::benchmarks
   class RegisterBlocks
   {
   public:
-    /// Rows and columns of @p matrix come in threes with the same pattern.
+    /// Rows and columns of @p matrix must come in threes with the same pattern.
     explicit RegisterBlocks(const CsrView &matrix);
 
     /// y = A x.
@@ -60,7 +60,7 @@ namespace corotet::benchmarks
   private:
     std::vector<std::size_t> row_starts;
     std::vector<int>         columns;
-    /// [block][column][row], and one number more.
+    /// Values as [block][column][row], and one number more at the end.
     std::vector<double> values;
   };
 } // namespace corotet::benchmarks

@@ -10,8 +10,8 @@ namespace corotet::benchmarks
 {
   constexpr double static_tolerance = 1e-8;
 
-  /// |b - A x| / |b|, by the matrix-free operator, which is checked
-  /// elsewhere.
+  /// The relative residual |b - A x| / |b| with the matrix-free operator, which
+  /// other benchmarks check.
   inline double
   residual(CaseData &data, const Vector &x, const Vector &b)
   {
@@ -21,8 +21,8 @@ namespace corotet::benchmarks
     return r.l2_norm() / b.l2_norm();
   }
 
-  /// By conjugate gradients with @p A, whose preconditioner is made from the
-  /// effective operator.
+  /// Solves by conjugate gradients with @p A; the preconditioner is made from
+  /// the effective operator.
   template <typename Operator>
   Counters
   solve(CaseData &data, const Operator &A, Preconditioner &P)

@@ -9,7 +9,8 @@
 
 namespace corotet::benchmarks
 {
-  /// The rotation nearest to F, as most codes find it.
+  /// The rotation nearest to F by singular value decomposition, as in most
+  /// codes.
   inline Eigen::Matrix3d
   svd_rotation(const Eigen::Matrix3d &F)
   {

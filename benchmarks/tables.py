@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 
-"""Results of benchmarks as tables: what is in them, and how they look as text and on a page."""
+"""Results of benchmarks as tables: their content, and their form as text and on
+a page."""
 
 from dataclasses import dataclass
 
@@ -20,7 +21,8 @@ class Table:
     note: str = ""
 
     def as_text(self):
-        """Columns as wide as needed, the first to the left."""
+        """The table as text; columns are as wide as needed, the first one
+        aligned to the left."""
         rows = [[str(cell) for cell in row] for row in self.rows]
         widths = [max(len(row[i]) for row in [self.head] + rows) for i in range(len(self.head))]
 
@@ -36,7 +38,8 @@ class Table:
 
 
 def show(value, scale=1.0, form=".3g"):
-    """A number with three digits, without an exponent as long as that is readable."""
+    """A number with three digits, without an exponent where it is readable
+    without."""
     if value is None:
         return "-"
     value *= scale
@@ -67,7 +70,7 @@ def select(results, word):
 
 
 def of_beam(results):
-    """Those of the beam: labels of other bodies have a dash."""
+    """The results for the beam: labels of other bodies have a dash."""
     return {name: r for name, r in results.items() if "-" not in name.split("/")[1]}
 
 
@@ -232,5 +235,5 @@ ALL = [machine, operators, deal_matrix_free, kernels, rotations, solves, iterati
 
 
 def details(results):
-    """All tables but that of ratios, without those that have no rows."""
+    """All tables except that of ratios, without those that have no rows."""
     return [table for table in (make(results) for make in ALL) if table.rows]

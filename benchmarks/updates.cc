@@ -14,7 +14,7 @@ namespace corotet::benchmarks
   {
     using Matrix = Eigen::Matrix3d;
 
-    /// F at the centre of every cell.
+    /// The deformation gradients at the centres of all cells.
     std::vector<Matrix>
     deformation_gradients(const Problem &problem, const Vector &u)
     {
@@ -75,8 +75,8 @@ namespace corotet::benchmarks
          static_cast<double>(data.problem().discretization.n_local_cells())}};
     }
 
-    /// While it lives the rotations and the operator may be those of the
-    /// deformed beam; afterwards they are those of the state of solves.
+    /// While this object lives, rotations and operator may be those of the
+    /// deformed beam; afterwards they are those of the state of solves again.
     struct DeformedBeam
     {
       explicit DeformedBeam(CaseData &data)
@@ -100,8 +100,8 @@ namespace corotet::benchmarks
       Vector       f;
     };
 
-    /// What a Newton iteration does before its solve, when the preconditioner
-    /// is that of an iteration before.
+    /// The steps of a Newton iteration before its solve, with a preconditioner
+    /// of an earlier iteration.
     Measured
     make_setup_after_rotation(CaseData &data)
     {
@@ -122,7 +122,7 @@ namespace corotet::benchmarks
               cells(data)};
     }
 
-    /// Vectors of explicit dynamics, and what a step must make of them.
+    /// The vectors of an explicit step.
     struct Explicit
     {
       explicit Explicit(const Problem &p)
@@ -149,7 +149,7 @@ namespace corotet::benchmarks
     Measured
     make_explicit_step(CaseData &data)
     {
-      // Far below the limit of stability.
+      // This time step is far below the limit of stability.
       constexpr double dt   = 1e-8;
       Problem         &p    = data.problem();
       const auto       beam = std::make_shared<DeformedBeam>(data);
@@ -254,7 +254,8 @@ namespace corotet::benchmarks
             "quadrature_points",
             corotational_law(Rotation::quadrature_points));
     add_law(data, "saint_venant_kirchhoff", saint_venant_kirchhoff_law());
-    // The same as programs write theirs: a call for each point.
+    // The same law, with a call for each point, as programs that add laws write
+    // it.
     add_law(data,
             "saint_venant_kirchhoff_by_points",
             material_law(saint_venant_kirchhoff_law()));

@@ -9,14 +9,14 @@ from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkUnstructur
 
 
 def vtk_points(positions):
-    """Of an array of (n, 3) numbers."""
+    """VTK's points for an array of (n, 3) numbers."""
     points = vtkPoints()
     points.SetData(numpy_to_vtk(positions, deep=True))
     return points
 
 
 def tetrahedra_grid(positions, tetrahedra):
-    """Of arrays of (n, 3) positions and (m, 4) numbers of them."""
+    """VTK's grid for arrays of (n, 3) positions and (m, 4) node numbers."""
     grid = vtkUnstructuredGrid()
     grid.SetPoints(vtk_points(positions))
     cells = vtkCellArray()

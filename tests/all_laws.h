@@ -14,17 +14,17 @@
 
 namespace corotet::tests
 {
-  /// A law of the registry, with one placement of rotations.
+  /// A registered law, with one placement of rotations if it has any.
   struct NamedLaw
   {
-    /// "neo-Hookean", "corotational, cell centre".
+    /// The name, such as "neo-Hookean" or "corotational, cell centre".
     std::string name;
-    /// Its choice in a parameter file.
+    /// The entries of a parameter file that select the law.
     std::string                        text;
     std::shared_ptr<const MaterialLaw> law;
   };
 
-  /// All laws that there are.
+  /// All registered laws, with each placement of rotations.
   inline const std::vector<NamedLaw> &
   all_laws()
   {
@@ -49,7 +49,7 @@ namespace corotet::tests
     return laws;
   }
 
-  /// Those that are not linear.
+  /// All laws that are not linear.
   inline const std::vector<NamedLaw> &
   nonlinear_laws()
   {

@@ -19,7 +19,7 @@
 
 namespace corotet
 {
-  /// For names of tests: "P2", "P2 with bubbles".
+  /// Shows an element in the names of tests: "P2", "P2 with bubbles".
   inline void
   PrintTo(const Element element, std::ostream *stream)
   {
@@ -79,7 +79,7 @@ namespace corotet::tests
     dealii::ParameterHandler prm;
   };
 
-  /// What a body is made of beside its mesh.
+  /// The input of a body besides its mesh.
   struct BodyInput
   {
     BodyInput(const std::string &text, const MPI_Comm comm)
@@ -130,7 +130,7 @@ namespace corotet::tests
     State            state;
   };
 
-  /// Largest absolute owned entry over all ranks.
+  /// The largest absolute difference of owned entries, over all ranks.
   inline double
   largest_difference(const Vector &u, const Vector &v)
   {
@@ -141,7 +141,7 @@ namespace corotet::tests
     return difference.linfty_norm();
   }
 
-  /// Rotation by @p angle about @p axis (Rodrigues).
+  /// The rotation by @p angle about @p axis (Rodrigues' formula).
   inline dealii::Tensor<2, 3>
   rotation_about(dealii::Tensor<1, 3> axis, const double angle)
   {
@@ -159,7 +159,7 @@ namespace corotet::tests
     return R;
   }
 
-  /// Shows a figure that a test has measured, once.
+  /// Shows a figure that a test has measured, on one rank.
   inline void
   report(const std::string &what, const double figure)
   {

@@ -13,7 +13,7 @@ namespace corotet::tests
 {
   /**
    * @p mesh with all vertices moved to @p map(x), and every cell given the map
-   * of degree q that interpolates it. Straight ones are among them until
+   * of degree q that interpolates it. Straight cells keep such maps until
    * remove_straight_maps().
    */
   inline SerialMesh
@@ -57,8 +57,8 @@ namespace corotet::tests
   }
 
   /// An eighth of a sphere of radius 1 m with a hole at its pole, 4 mm thick,
-  /// of n x n x 1 cuboids (five tetrahedra each). With n = 4 the edges of cells
-  /// are off their chords by up to ten times the thickness.
+  /// of n x n x 1 cuboids (five tetrahedra each). With n = 4 the distance of
+  /// curved edges from their chords is up to ten times the thickness.
   inline SerialMesh
   thin_shell(const unsigned int n, const unsigned int q)
   {

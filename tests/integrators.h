@@ -14,7 +14,7 @@
 
 namespace corotet::tests
 {
-  /// Names of the time integrators in the list that have a property, with their
+  /// Names of the registered time integrators that have a property with their
   /// default parameters.
   inline std::vector<std::string>
   integrators_with(const std::function<bool(const TimeIntegrator &)> &property)

@@ -11,7 +11,7 @@
 
 namespace corotet::tests
 {
-  /// A checkpoint in memory.
+  /// A checkpoint that is kept in memory.
   class MemoryArchive : public Archive
   {
   public:

@@ -59,7 +59,7 @@ namespace corotet::tests
     double m = 2, c = 0, k = 8, p = 0, w = 3, weight = 0;
   };
 
-  /// At time 0.
+  /// The state at time 0 with these values of u and v.
   inline State
   initial_state(Oscillator &system, const double u, const double v)
   {

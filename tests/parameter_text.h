@@ -14,13 +14,13 @@
 
 /*
  * Sections of parameter files as text. Texts are joined by +: a section may
- * come several times, and of an entry that does, the last one counts.
+ * occur several times, and if an entry does, the last one counts.
  */
 namespace corotet::tests
 {
   /**
-   * An entry of a section, or any text with entries and sections. A number has
-   * as many digits as it takes to read the same number.
+   * An entry of a section, or any text with entries and sections. Numbers have
+   * enough digits to be read back exactly.
    */
   struct Entry
   {
@@ -38,7 +38,8 @@ namespace corotet::tests
 
   using Entries = std::initializer_list<Entry>;
 
-  /// section("Mesh", {{"Scale", 2}, section("box", {{"Cells", "1, 2, 3"}})})
+  /// A section, such as section("Mesh", {{"Scale", 2}, section("box",
+  /// {{"Cells", "1, 2, 3"}})}).
   inline std::string
   section(const std::string &name, const Entries entries)
   {
@@ -55,8 +56,8 @@ namespace corotet::tests
                    {section("box", {{"Size", size}, {"Cells", cells}})});
   }
 
-  /// Bubbles come with quadrature at the nodes. Without @p mass all others have
-  /// the program's own.
+  /// The entries for an element. Bubbles get quadrature at the nodes as mass;
+  /// without @p mass other elements have the program's default.
   inline std::string
   element_text(const Element element, const std::string &mass = "")
   {
@@ -69,7 +70,7 @@ namespace corotet::tests
     return text;
   }
 
-  /// What is left out is as in the program.
+  /// The entries of a material; arguments left out are the program's defaults.
   inline std::string
   material_text(const double youngs_modulus,
                 const double poissons_ratio = 0.3,
@@ -87,7 +88,7 @@ namespace corotet::tests
     return section("Material", {{"Type", type}});
   }
 
-  /// Where a law of large rotations takes them.
+  /// The entry for the placement of rotations in a corotational law.
   inline std::string
   rotation_at(const std::string &place)
   {
@@ -127,7 +128,7 @@ namespace corotet::tests
                          "z-max: free; free; 0");
   }
 
-  /// The same on each side of a box.
+  /// The same value for each side of a box.
   inline std::string
   on_all_sides(const std::string &value)
   {

@@ -27,7 +27,7 @@ namespace corotet::tests
       std::move(static_cast<MeshCells &>(refined));
   }
 
-  /// A mesh that one rank has, with the names of selections in addition.
+  /// A mesh that one rank has, with the names of selections added.
   inline SerialMesh
   with_selections(const SerialMesh &mesh, const SelectionParameters &selections)
   {

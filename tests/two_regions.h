@@ -10,8 +10,8 @@
 
 namespace corotet::tests
 {
-  /// Makes region 1 of the cells whose centre is below @p x, and 2 of the
-  /// others.
+  /// Puts cells whose centre is below @p x into region 1, and the others into
+  /// region 2.
   inline SerialMesh
   in_two_regions(SerialMesh         mesh,
                  const double       x,

@@ -52,8 +52,8 @@ namespace corotet::tests
               lambda * (A * k) * dealii::unit_symmetric_tensor<3>());
     }
 
-    /// Of a static problem on the unit cube: displacement on three sides,
-    /// traction on the others.
+    /// The parameters of a static problem on the unit cube: displacement on
+    /// three sides, traction on the others.
     std::string
     parameters(const unsigned int degree) const
     {

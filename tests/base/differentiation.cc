@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Derivatives of formulas against those worked out by hand, as numbers: the
-// texts are nobody's business.
+// Derivatives of formulas are compared with ones worked out by hand, by their
+// values: how their texts are written does not matter.
 
 #include <corotet/base/differentiation.h>
 #include <corotet/base/exceptions.h>
@@ -47,7 +47,7 @@ namespace
     return "accepted";
   }
 
-  // Some operations on numbers of size one.
+  // The round-off of some operations on numbers of size one.
   constexpr double round_off = 1e-14;
 } // namespace
 
@@ -76,8 +76,9 @@ TEST(Differentiation, Derivatives)
               round_off);
 }
 
-// Terms and factors stand in one order in all processes: GiNaC has them in that
-// of addresses in memory, and sums of another order have other last digits.
+// Terms and factors of a result have the same order in all processes: GiNaC
+// orders them by addresses in memory, and sums in another order differ in the
+// last digits.
 TEST(Differentiation, OneOrderInAllProcesses)
 {
   EXPECT_EQ(differentiate("x^2*t + y*sin(x) - z/(1 + x)", {}, "Entry"),
@@ -86,7 +87,8 @@ TEST(Differentiation, OneOrderInAllProcesses)
             "1/pow(1.0/(x*x*x)+y,2.0)+sqrt(x)");
 }
 
-// Also where a sum goes on with a negative number.
+// A derivative is also right where a sum goes on with a negative number
+// ("+-1.0").
 TEST(Differentiation, NegativeNumbersInSums)
 {
   const std::string text = differentiate("-x - x*y + cos(x)", {"x"}, "Entry");
@@ -136,7 +138,7 @@ TEST(Differentiation, Refusals)
             std::string::npos);
 }
 
-// Numbers are not computed with, however large they would become.
+// Numbers in powers are not multiplied out, however large they would become.
 TEST(Differentiation, NumbersStayAsTheyAre)
 {
   const double x = p[0];
@@ -145,7 +147,7 @@ TEST(Differentiation, NumbersStayAsTheyAre)
   EXPECT_NEAR(derivative("pow(x, 1.5) + x^-2", {"x"}),
               1.5 * std::sqrt(x) - 2 / (x * x * x),
               100 * round_off);
-  // Also where the base is zero.
+  // The derivative is zero, and not "not a number", where the base is zero.
   EXPECT_EQ(Expression(differentiate("(x - x)^2 + pow(x - x, 2)", {"x"}, ""),
                        1,
                        "Entry")
@@ -153,13 +155,13 @@ TEST(Differentiation, NumbersStayAsTheyAre)
             0.);
 }
 
-// Nor are large exponents written as that many factors.
+// Powers with large exponents are not written as products of that many factors.
 TEST(Differentiation, LargeExponents)
 {
   const std::string derivative_text =
     differentiate("x^977777 + (x - x)^977777", {"x"}, "Entry");
   EXPECT_LT(derivative_text.size(), 200u) << derivative_text;
-  // A sum without round-off.
+  // log1p(h) gives the logarithm of the base without the round-off of 1 + h.
   const double h        = 0x1p-20;
   const double expected = 977777 * std::exp(977776 * std::log1p(h));
   EXPECT_NEAR(Expression(derivative_text, 1, "Entry").value({1 + h, 0, 0}, 0.),

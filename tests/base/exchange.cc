@@ -31,8 +31,9 @@ namespace
   using Arrays = std::map<unsigned int, std::vector<std::uint64_t>>;
 } // namespace
 
-// Arrays of other lengths to all ranks, this one too, some of them empty. Ranks
-// are not in step: odd ones have much more to send.
+// Each rank sends arrays of different lengths, some of them empty, to all
+// ranks, itself included. Ranks are not in step: odd ones have much more to
+// send.
 TEST(Exchange, AllToAll)
 {
   for (unsigned int round = 0; round < 50; ++round)
@@ -52,7 +53,7 @@ TEST(Exchange, AllToAll)
     }
 }
 
-// Who gets nothing from a rank does not hear of it.
+// A rank gets no entry from ranks that have sent it nothing.
 TEST(Exchange, OnlyWhoIsMeant)
 {
   Arrays sent, expected;

@@ -33,14 +33,14 @@ namespace
         EXPECT_EQ(error.entry, "Loads/Gravity");
         message = error.what();
       }
-    // muParser must not chat.
+    // muParser must not write to the terminal.
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
     EXPECT_EQ(message.find('\n'), std::string::npos);
     return message;
   }
 } // namespace
 
-// muParser alone takes "||y" for its start, "|".
+// muParser alone reads "||y" as "|" followed by something else.
 TEST(Expression, AndOrBesideNames)
 {
   const dealii::Point<3> p(1, 2, 3);
@@ -61,8 +61,8 @@ TEST(Expression, EvaluatesAllComponents)
 {
   const Expression       e("x * sin(y); if(t > 1, z^2, -z); 2e1 + pi", 3, "");
   const dealii::Point<3> p(0.5, 1.5, -2);
-  // The same operations in the same order: equal to round-off of one or two
-  // operations.
+  // The test does the same operations in the same order, so values are equal to
+  // the round-off of one or two operations.
   EXPECT_DOUBLE_EQ(e.value(p, 2, 0), 0.5 * std::sin(1.5));
   EXPECT_DOUBLE_EQ(e.value(p, 2, 1), 4);
   EXPECT_DOUBLE_EQ(e.value(p, 0.5, 1), 2);
@@ -89,10 +89,10 @@ TEST(Expression, KnowsWhatItDependsOn)
   check("1 - 1", false, false, true);
   check("1e5", false, false, false);
   check("3 * y", true, false, false);
-  // No names: tan and exp have a t and an x, but only as letters.
+  // tan and exp depend on nothing: their letters t and x are no variables.
   check("tan(1) + exp(1)", false, false, false);
   check("sin(2*pi*t)", false, true, false);
-  // Zero at the origin, but not everywhere.
+  // The product is zero at the origin, but not everywhere.
   check("x * t", true, true, false);
 }
 
@@ -193,8 +193,8 @@ TEST(Expression, RefusesUnknownNames)
             "functions");
 }
 
-// The first one is told, once; by no derivative, whose differences may go where
-// the formula ends.
+// The first value that is not finite is reported, and only once. Derivatives
+// report none, as their differences may leave the domain of the formula.
 TEST(Expression, NotesValuesThatAreNotFinite)
 {
   take_not_finite(MPI_COMM_WORLD);
@@ -215,7 +215,8 @@ TEST(Expression, NotesValuesThatAreNotFinite)
   EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
 }
 
-// However it is written; what is no formula, or may be anything, is not zero.
+// A zero formula is recognised however it is written; what is no formula, or
+// may have any value, is not zero.
 TEST(Expression, ZeroTexts)
 {
   take_not_finite(MPI_COMM_WORLD);
@@ -224,11 +225,11 @@ TEST(Expression, ZeroTexts)
   for (const std::string text :
        {"0; 0; 1", "0; 0; t", "0; 0", "", "0; 0; f(t)", "0; 0; 1/0"})
     EXPECT_FALSE(is_zero_expression(text, 3)) << text;
-  // Nothing is computed with these.
+  // is_zero_expression() computes no values of these, so none is noted.
   EXPECT_FALSE(take_not_finite(MPI_COMM_WORLD));
 }
 
-// What reads formulas calls itself for each of them.
+// The parser of formulas calls itself for each level of parentheses.
 TEST(Expression, RefusesDeepParentheses)
 {
   const auto nested = [](const unsigned int n) {
@@ -240,7 +241,7 @@ TEST(Expression, RefusesDeepParentheses)
     "the expression \"" + nested(101).substr(0, 80) +
       "... (203 characters)\" is no formula: found parentheses 101 deep "
       "in each other; allowed are 100");
-  // Powers need no parentheses: then derivatives are differences.
+  // Powers nest deeply without parentheses: their derivatives are differences.
   std::string powers = "t*1";
   for (unsigned int i = 0; i < 2000; ++i)
     powers += "^1";

@@ -23,8 +23,8 @@ namespace
   }
 } // namespace
 
-// Between 2 and 6, where s = (t - 2) / 4 is exact; polynomials with small
-// whole coefficients are exact there, too.
+// Times are between 2 and 6, where s = (t - 2) / 4 is exact, and so are
+// polynomials with small whole coefficients.
 TEST(FormulaFunctions, FunctionsOfTime)
 {
   const std::vector<double> times = {-1, 2, 3, 4, 5, 6, 7};
@@ -40,7 +40,8 @@ TEST(FormulaFunctions, FunctionsOfTime)
     for (unsigned int i = 0; i < times.size(); ++i)
       EXPECT_DOUBLE_EQ(at(name + "(t, 2, 6)", times[i]), expected.at(name)[i])
         << name << " at " << times[i];
-  // Exactly zero, lest a load that has ended goes on with round-off.
+  // The value must be exactly zero, lest a load that has ended goes on with
+  // round-off.
   EXPECT_EQ(at("half_sine(t, 2, 6)", 6), 0);
 }
 
@@ -77,14 +78,14 @@ TEST(FormulaFunctions, DegenerateIntervals)
       EXPECT_TRUE(std::isnan(at(name + "(t, 2, 1)", t))) << name;
 }
 
-// A load must not be zero where its argument is none.
+// A load must not be zero where its argument is not a number.
 TEST(FormulaFunctions, NotANumberStaysNone)
 {
   for (const std::string &name : functions_of_time)
     EXPECT_TRUE(std::isnan(at(name + "(sqrt(0 - 1 - t), 0, 1)", 0))) << name;
 }
 
-// What formulas have had of deal.II's parser.
+// These functions and operators formulas had already from deal.II's parser.
 TEST(FormulaFunctions, GeneralFunctions)
 {
   EXPECT_EQ(at("pi", 0), dealii::numbers::PI);
@@ -102,7 +103,7 @@ TEST(FormulaFunctions, GeneralFunctions)
   EXPECT_EQ(at("cot(t)", 0.5), 1 / std::tan(0.5));
   EXPECT_EQ(at("csc(t)", 0.5), 1 / std::sin(0.5));
   EXPECT_EQ(at("sec(t)", 0.5), 1 / std::cos(0.5));
-  // Blanks before parentheses.
+  // Blanks may stand before parentheses.
   EXPECT_EQ(at("max (t, 3) * (2)", 1), 6);
 }
 

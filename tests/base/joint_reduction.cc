@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Numbers of all ranks with one message, and inner products.
+// Sums and maxima over all ranks with one message, and inner products.
 
 #include <corotet/base/joint_reduction.h>
 #include <corotet/base/vector.h>
@@ -60,7 +60,7 @@ TEST(JointReduction, OnlyMaxima)
   EXPECT_EQ(largest, 3);
 }
 
-// Of whatever rank they are.
+// A value that is not a number reaches all ranks, whichever rank has it.
 TEST(JointReduction, NotFinite)
 {
   for (unsigned int of = 0; of < n_ranks(); ++of)
@@ -76,7 +76,7 @@ TEST(JointReduction, NotFinite)
     }
 }
 
-// Whole numbers, of which sums are exact in any order.
+// Entries are whole numbers, whose sums are exact in any order.
 TEST(Vectors, InnerProducts)
 {
   for (unsigned int size = 0; size < 70; ++size)

@@ -75,9 +75,9 @@ TEST(Log, RefusesAFileThatCannotBeWritten)
 {
   const TemporaryFolder folder;
   Log                   log(MPI_COMM_WORLD, /* quiet = */ true);
-  // Only rank 0 opens it, and all learn what came of it.
+  // Only rank 0 opens the file, and all ranks get the error.
   EXPECT_THROW(log.open(folder / "absent/log.txt"), MachineError);
-  // It can be opened, but what has been shown has no room.
+  // This file can be opened, but has no room for the lines shown before.
   log.line("early");
   EXPECT_THROW(log.open("/dev/full"), MachineError);
 }

@@ -19,7 +19,7 @@ using namespace corotet;
 
 namespace
 {
-  // In bytes, by the name of a line of /proc/self/status.
+  // The memory [bytes] in the line of /proc/self/status with this name.
   double
   resident(const std::string &name)
   {
@@ -49,8 +49,8 @@ TEST(Memory, LastReadingGivesBackWhatHasBeenPassed)
       reading.passed(&values[i]);
       sum += values[i];
     }
-  // All but less than a piece of 4 MiB and parts of pages, and some for what
-  // others do.
+  // All that was passed is given back, but for less than a piece of 4 MiB and
+  // parts of pages; the process may use some memory for other things.
   EXPECT_LT(resident("RssAnon"), before - 8. * n_passed + 6e6);
   EXPECT_EQ(sum, 0.5 * n_passed * (n_passed - 1));
   for (std::size_t i = n_passed; i < values.size(); ++i)
@@ -59,7 +59,7 @@ TEST(Memory, LastReadingGivesBackWhatHasBeenPassed)
   EXPECT_EQ(values.front(), 1);
 }
 
-// A few pages are not worth a call.
+// A few pages are not worth a system call.
 TEST(Memory, LastReadingKeepsSmallArrays)
 {
   std::vector<double> values(100000, 2.);
@@ -71,8 +71,8 @@ TEST(Memory, LastReadingKeepsSmallArrays)
 
 TEST(Memory, FreedArraysAreGivenBack)
 {
-  // Many small ones come from the heap on all systems; the last stays, so that
-  // the heap does not end before it.
+  // Many small arrays come from the heap on all systems; the last one stays, so
+  // that the heap does not end before it.
   const std::size_t                n_arrays = 1000, n_each = 12500;
   std::vector<std::vector<double>> arrays(n_arrays);
   for (std::vector<double> &values : arrays)
@@ -81,14 +81,17 @@ TEST(Memory, FreedArraysAreGivenBack)
   for (std::size_t i = 0; i + 1 < n_arrays; ++i)
     std::vector<double>().swap(arrays[i]);
   release_free_memory();
-  // But for parts of pages, and some for what others do.
+  // All but parts of pages is given back; the process may use some memory for
+  // other things.
   EXPECT_LT(resident("RssAnon"), before - 8. * n_arrays * n_each + 1e7);
   EXPECT_EQ(arrays.back(), std::vector<double>(n_each, 1.));
 }
 
 TEST(Memory, PagesOfLibrariesComeBack)
 {
-  // What can be given back, once it is there.
+  // Size [bytes] of the read-only pages of all libraries, each of which is read
+  // once so that it is in memory; and a sum that keeps the reading from being
+  // left out.
   std::pair<double, unsigned int> found(0, 0);
   dl_iterate_phdr(
     [](dl_phdr_info *library, std::size_t, void *data) {
@@ -107,12 +110,12 @@ TEST(Memory, PagesOfLibrariesComeBack)
       return 0;
     },
     &found);
-  // Linkers of other machines put these tables beside the code.
+  // Linkers of other machines put read-only tables beside the code.
   if (found.first < 30e6)
     GTEST_SKIP() << "few pages are there to be read only";
   const double before = resident("RssFile");
   release_library_pages();
   EXPECT_LT(resident("RssFile"), before - 0.5 * found.first);
-  // Needs tables that have been given back.
+  // Throwing reads tables that have been given back.
   EXPECT_THROW(throw std::runtime_error("found"), std::runtime_error);
 }

@@ -90,7 +90,7 @@ TEST(Mpi, FailuresOfTheMachineAreErrorsOnEveryRank)
       };
       const std::string start = "memory is too short: this process has ";
       EXPECT_TRUE(message([] { throw std::bad_alloc(); }).starts_with(start));
-      // That of deal.II's aligned memory, and of its vectors.
+      // deal.II's aligned memory, and its vectors, throw this exception.
       EXPECT_TRUE(
         message([] { throw dealii::ExcOutOfMemory(1000); }).starts_with(start));
       EXPECT_TRUE(message([] {
@@ -103,8 +103,7 @@ TEST(Mpi, FailuresOfTheMachineAreErrorsOnEveryRank)
     }
 }
 
-// With two ranks the last rank is another one than the first; with one it is
-// the same.
+// With two ranks the last rank is not the first; with one rank it is.
 TEST(Mpi, OnAllRanksThrowsTheErrorOfTheLowestRank)
 {
   const unsigned int last =

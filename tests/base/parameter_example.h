@@ -65,8 +65,8 @@ struct Example
       }
     catch (const corotet::InputError &error)
       {
-        // The message names the place by itself; without the folder, which
-        // is another one each time.
+        // The message itself names the place in the file. The folder is left
+        // out, as it is another one in each test.
         EXPECT_EQ(error.entry, "");
         std::string       message = error.what();
         const std::string prefix  = folder / "";

@@ -94,7 +94,7 @@ TEST(ParameterFile, ReadsJsonShortAndInFull)
   EXPECT_EQ(example.parameters.location("Mesh/Box"), file + ":3");
 }
 
-// What ParameterHandler itself prints as .xml, with the names it changes.
+// A .xml file as ParameterHandler itself prints it, with changed names.
 TEST(ParameterFile, ReadsXml)
 {
   for (const auto style :
@@ -240,7 +240,7 @@ TEST(ParameterFile, RefusesFileNamesThatCouldNotBeReadAgain)
                                                "  set File name = part.msh\n"
                                                "end\n"),
                           {});
-  // From the same folder the name is the same.
+  // A file in the same folder has the name without "c#/".
   example.parameters.check_effective(example.folder / "c#/b.prm");
   try
     {

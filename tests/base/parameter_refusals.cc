@@ -54,7 +54,7 @@ TEST(ParameterFile, RefusesValuesThatAreNotAllowed)
                             "subsection Material\n  set Density = -1\nend\n"),
             "a.prm:2: the value \"-1\" of \"Material/Density\" is not "
             "allowed; allowed is a number >= 0");
-  // The limit of whole numbers is said where it matters.
+  // The message tells the limit of whole numbers where a value exceeds it.
   for (const auto &[value, allowed] :
        {std::pair("0", "a whole number >= 1"),
         std::pair("2147483648", "a whole number from 1 to 2147483647"),
@@ -117,7 +117,7 @@ TEST(ParameterFile, RefusesBrokenJson)
   Example           example;
   const std::string message = example.refusal("a.json", "{\n\"Material\" 3}");
   EXPECT_EQ(message.rfind("a.json:2: it is no valid JSON: ", 0), 0) << message;
-  // However long what was read last is.
+  // The message stays short, however long the text before the error is.
   const std::string start = "{\n\"Material\": \"";
   const std::string far_away =
     example.refusal("a.json", start + std::string(1'000'000, 'x') + "\" y}");
@@ -134,7 +134,8 @@ TEST(ParameterFile, RefusesBrokenJson)
                     "{\"Material\":\n{\"Law\": \"linear\",\n\n\"Densty\": 1}}"),
     "a.json:4: there is no entry \"Densty\" in \"Material\"; did you "
     "mean \"Density\"?");
-  // As --print-parameters writes it: the line is that of the value.
+  // With entries as --print-parameters writes them, the line is that of the
+  // value.
   EXPECT_EQ(example.refusal("a.json",
                             "{\"Material\": {\n\"Density\": {\n\"value\":"
                             "\n-1}}}"),
@@ -200,8 +201,8 @@ TEST(ParameterFile, RefusesDeepNesting)
   EXPECT_EQ(example.refusal("a.xml",
                             repeated("<a>", 100000) + repeated("</a>", 100000)),
             "a.xml: " + reason);
-  // What follows the shortest statement, and the shortest end of an element,
-  // counts.
+  // Nesting is also counted behind the shortest statement, "<?", and the
+  // shortest end of an element.
   EXPECT_EQ(example.refusal("a.xml",
                             "<?"
                             "?>" +
@@ -209,7 +210,7 @@ TEST(ParameterFile, RefusesDeepNesting)
             "a.xml: " + reason);
   EXPECT_EQ(example.refusal("a.xml", repeated("<b><a></a>", 100)),
             "a.xml: " + reason);
-  // Comments and statements are no levels.
+  // Comments and statements do not count as levels.
   EXPECT_EQ(example.refusal("a.xml",
                             "<?xml version=\"1.0\"?><ParameterHandler>" +
                               repeated("<!-- a --><?b?>", 30) +
@@ -223,7 +224,7 @@ TEST(ParameterFile, RefusesDeepNesting)
             "a.json: " + reason);
   EXPECT_EQ(example.refusal("a.prm", repeated("subsection a\n", 100000)),
             "a.prm:21: " + reason);
-  // What only looks as if it closed an element.
+  // These texts only look as if they closed an element.
   for (const std::string closed : {"<a><!--</a>-->",
                                    "<a><![CDATA[</a>]]>",
                                    "<a><?b </a>?>",
@@ -239,8 +240,8 @@ TEST(ParameterFile, RefusesDeepNesting)
             "b.prm:1000: more than 1000 files are included");
 }
 
-// Also where a subsection is left and entered again; but another file may set
-// what an included one has set.
+// An entry is also refused where its subsection is left and entered again; but
+// a file may set what a file that it includes has set.
 TEST(ParameterFile, RefusesEntriesThatAreSetTwice)
 {
   Example           example;
@@ -271,8 +272,8 @@ TEST(ParameterFile, RefusesZeroBytes)
             "a.prm:2: it has a zero byte; a parameter file is text");
 }
 
-// A file does not make the program want many times its length of memory, nor
-// hours.
+// A parameter file must not make the program use many times the file's size in
+// memory, nor hours of time.
 TEST(ParameterFile, RefusesTooMuch)
 {
   const auto repeated = [](const std::string &text, const unsigned int n) {
@@ -306,7 +307,7 @@ TEST(ParameterFile, RefusesTooMuch)
             "a.json: " + many);
 }
 
-// A value of any length is not repeated.
+// Messages shorten a long value.
 TEST(ParameterFile, RefusesLongValuesInShort)
 {
   Example example;

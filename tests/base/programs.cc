@@ -62,7 +62,7 @@ TEST(Programs, ExitStatus)
   EXPECT_FALSE(run_installed_script("no such script", {}));
 }
 
-// As they are: no shell splits or expands them.
+// Programs get arguments as they are: no shell splits or expands them.
 TEST(Programs, Arguments)
 {
   const std::string text = "two words; $HOME 'quoted' *";
@@ -70,7 +70,7 @@ TEST(Programs, Arguments)
             text + "||");
 }
 
-// Also a program that has closed its output and goes on.
+// The limit also ends a program that has closed its output and goes on.
 TEST(Programs, TimeLimit)
 {
   for (const char *text : {"exec sleep 100", "exec sleep 100 >&-"})

@@ -56,7 +56,7 @@ namespace
     }
   };
 
-  // Of a given area.
+  // A shape with a given area.
   class Blob : public Shape
   {
   public:
@@ -111,8 +111,8 @@ TEST(Selectable, ReadsTypeAndParametersOfCandidates)
   EXPECT_EQ(shape.selected().area(), 9);
 }
 
-// What is made has the parameters that were read, and is apart from them: what
-// becomes of it changes no other.
+// An object that is made has the parameters that were read, and is independent
+// of them: changing it changes no other one.
 TEST(Selectable, MakesObjectsApart)
 {
   Selectable<Shape>        shape(shapes(), "square");
@@ -149,8 +149,9 @@ TEST(Selectable, NamesThoseWithAProperty)
   EXPECT_EQ(shape.names_of([](const Shape &s) { return s.area() > 9; }), "");
 }
 
-// What a program adds is chosen like the others, after them, as long as the
-// addition lives; a choice that was made in that time keeps it.
+// Candidates that a program adds can be selected like the others, and are
+// listed after them, as long as their AddedCandidate lives; a Selectable that
+// was made in that time keeps them.
 TEST(Selectable, HasAddedCandidates)
 {
   std::unique_ptr<Selectable<Shape>> shape;
@@ -174,7 +175,8 @@ TEST(Selectable, RefusesAddedCandidatesWithTheSameName)
     const AddedCandidate<Shape> square(candidate<Shape, Blob>("square", 1.));
     EXPECT_THROW(shapes(), std::logic_error);
   }
-  // The first one stays; names are single choices without a section in them.
+  // The first candidate stays. A name must be a single choice, without "/", "|"
+  // and blanks at its ends.
   const AddedCandidate<Shape> blob(candidate<Shape, Blob>("blob", 1.));
   for (const std::string name : {"blob", "", "a|b", "a/b", " a", "a "})
     EXPECT_THROW(const AddedCandidate<Shape> another(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Interpolation in tables: what it reproduces, that it does not overshoot, its
-// smoothness and order.
+// Interpolation in tables: which functions it reproduces, that it does not
+// overshoot, its smoothness and its order.
 
 #include <corotet/base/table_function.h>
 
@@ -31,7 +31,7 @@ namespace
     return result;
   }
 
-  // Flat parts, jumps, turns, and rows of very different distances.
+  // Rows with flat parts, jumps, turns, and very different distances.
   const std::vector<double> rough_arguments =
     {0, 1, 2, 2.001, 3, 5, 6, 6.5, 7, 100, 101};
   const std::vector<double> rough_values =
@@ -62,7 +62,8 @@ TEST(TableFunction, IsConstantOutside)
     }
 }
 
-// Linear data, two rows included: round-off of values up to 9.
+// A table of linear data, even of two rows only, gives the linear function, to
+// the round-off of values up to 9.
 TEST(TableFunction, ReproducesLinearFunctions)
 {
   const auto line = [](const double x) { return 3 - 1.5 * x; };
@@ -113,8 +114,9 @@ TEST(TableFunction, NeverOvershoots)
     }
 }
 
-// Round-off stays between the rows, too: of slopes, which are subnormal here,
-// it is multiplied by the distance of the rows.
+// Round-off does not lead out of the interval of two rows either: that of the
+// slopes, which are subnormal numbers here, is multiplied by the distance of
+// the rows.
 TEST(TableFunction, NeverOvershootsByRoundOff)
 {
   const std::vector<double> arguments = {0, 1, 2, 2000, 4000, 9000},
@@ -133,9 +135,9 @@ TEST(TableFunction, NeverOvershootsByRoundOff)
     }
 }
 
-// Slopes from both sides of inner rows agree up to the step of differences
-// times second derivatives, which are below 60 for these rows; those of linear
-// interpolation differ by 1 and more.
+// The slopes on both sides of an inner row agree up to the step of the
+// differences times the second derivative, which is below 60 for these rows.
+// Those of linear interpolation differ by 1 and more.
 TEST(TableFunction, CubicHasContinuousSlopes)
 {
   const std::vector<double> x = {0, 1, 2, 4, 5, 6};

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Tables in files as functions of formulas: what is read, on all ranks, and
-// what is refused in which words.
+// Tables in files as functions of formulas: what is read, on all ranks, and the
+// messages of what is refused.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/expression.h>
@@ -28,7 +28,7 @@ namespace
     return read_table_file(folder.write("table.csv", content));
   }
 
-  // What is said about a file with this content, without its folder.
+  // The message about a file with this content, without the folder.
   std::string
   file_refusal(const std::string &content)
   {
@@ -49,7 +49,7 @@ namespace
     return "accepted";
   }
 
-  // The parameters as a file gives them.
+  // Parameters with these values of the entries Linear and Cubic.
   TableParameters
   parameters(const std::string &linear, const std::string &cubic)
   {
@@ -61,7 +61,8 @@ namespace
     return result;
   }
 
-  // "ENTRY: MESSAGE" of names with the files a.csv, of two rows, and none.
+  // "ENTRY: MESSAGE" for these entries, in a folder with the file a.csv, of two
+  // rows, and no other one.
   std::string
   functions_refusal(const std::string &linear, const std::string &cubic)
   {
@@ -144,7 +145,7 @@ TEST(TableFile, RefusesWhatIsNoTable)
   EXPECT_EQ(file_refusal("t,u\n1,2\n"), few + "1");
 }
 
-// Only rank 0 has the files: folders of ranks differ.
+// Only rank 0 has the files, as each rank has a folder of its own.
 TEST(TableFunctions, AreKnownToFormulasOnAllRanks)
 {
   const TemporaryFolder folder;
@@ -164,7 +165,7 @@ TEST(TableFunctions, AreKnownToFormulasOnAllRanks)
                      3,
                      "",
                      tables);
-  // The expression keeps what it needs.
+  // The expression keeps the tables that it needs.
   tables.clear();
   const auto value = e.vector_value(dealii::Point<3>(0.5, 0, 0), 1.5);
   EXPECT_DOUBLE_EQ(value[0], 9);
@@ -175,7 +176,7 @@ TEST(TableFunctions, AreKnownToFormulasOnAllRanks)
   EXPECT_TRUE(e.depends_on_space());
 }
 
-// The effective parameters, in another folder, mean the same files.
+// The effective parameters in another folder name the same files.
 TEST(TableFunctions, FilesOfEffectiveParameters)
 {
   const TemporaryFolder folder;
@@ -249,7 +250,7 @@ TEST(TableFunctions, RefusesNamesAndFiles)
   EXPECT_EQ(functions_refusal("a: a.csv", "a: a.csv"),
             "Tables/Cubic: found two tables called 'a'; allowed is one");
 
-  // On every rank the path of rank 0, where there is a difference.
+  // All ranks show the path of rank 0, also where theirs is another one.
   const std::string message = functions_refusal("a: a.csv, b: none.csv", "");
   EXPECT_EQ(message.find("Tables/Linear: there is no table file: found '"), 0u)
     << message;

@@ -16,10 +16,10 @@ using namespace corotet;
 TEST(Text, NearestFindsTheFewestChanges)
 {
   EXPECT_EQ(nearest("Densty", {"Degree", "Density"}), "Density");
-  // One replaced character wins against two.
+  // A name with one replaced character is nearer than one with two.
   EXPECT_EQ(nearest("x-mix", {"y-min", "x-max", "x-min"}), "x-max");
-  // A letter too many or too few, wherever it is, is one change: all that short
-  // words may have.
+  // A letter too many or too few, wherever it is, is one change: no more is
+  // allowed in short words.
   EXPECT_EQ(nearest("ab", {"b"}), "b");
   EXPECT_EQ(nearest("ab", {"a"}), "a");
   EXPECT_EQ(nearest("b", {"ab"}), "ab");
@@ -79,14 +79,14 @@ TEST(Text, Join)
   EXPECT_EQ(join({"a", "b"}, "/"), "a/b");
 }
 
-// Messages of any text fit a terminal and do not control it.
+// Messages that quote any text fit on a terminal and do not control it.
 TEST(Text, ShortenedAndPrintable)
 {
   EXPECT_EQ(shortened("short"), "short");
   EXPECT_EQ(shortened(std::string(80, 'a')), std::string(80, 'a'));
   EXPECT_EQ(shortened(std::string(1000000, 'a')),
             std::string(80, 'a') + "... (1000000 characters)");
-  // The two bytes of one character are not parted.
+  // A shortened text does not end between the two bytes of a character.
   EXPECT_EQ(shortened(std::string(79, 'a') + "\u00e9bc"),
             std::string(79, 'a') + "... (83 characters)");
   EXPECT_EQ(printable("a\033[2Jb\n\tc\r"), "a\\x1b[2Jb\\x0a\\x09c\\x0d");
@@ -94,7 +94,8 @@ TEST(Text, ShortenedAndPrintable)
   // Delete, and one of the control characters behind it; a space that does
   // not break has the same first byte, and stays.
   EXPECT_EQ(printable("\x7f\u009b\u00a0\u00e9"), "\\x7f\\x9b<U+00A0>\u00e9");
-  // A zero-width space, a hyphen and a minus sign; a dash is seen as one.
+  // A zero-width space, a hyphen and a minus sign are shown by their codes; a
+  // dash can be told from other characters.
   EXPECT_EQ(printable("x\u200by\u2010\u2212\u2014\ufeff"),
             "x<U+200B>y<U+2010><U+2212>\u2014<U+FEFF>");
   EXPECT_EQ(printable(std::string(5000, 'a')), std::string(4000, 'a') + "...");
@@ -107,7 +108,8 @@ TEST(Text, SplitOutsideBrackets)
             (Parts{"min(1, x)", "y[2,3]", "z"}));
   EXPECT_EQ(split_outside_brackets("", ';'), Parts{""});
   EXPECT_EQ(split_outside_brackets("a;;", ';'), (Parts{"a", "", ""}));
-  // Names in quotes; a quote within a name, or without a second one, is none.
+  // Names may be in quotes; a quote within a name, or without a second one, has
+  // no meaning.
   EXPECT_EQ(split_outside_brackets("\"a, b\" & \"(c\" : 1,d", ','),
             (Parts{"\"a, b\" & \"(c\" : 1", "d"}));
   EXPECT_EQ(split_outside_brackets("5\" pipe, 6\" pipe, \"a", ','),

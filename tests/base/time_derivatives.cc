@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Derivatives of expressions in time: against those worked out by hand, against
-// differences for each function, and at kinks against those of what follows.
+// Time derivatives of expressions: compared with ones worked out by hand, with
+// differences for each function, and at kinks with the derivatives on the
+// right.
 
 #include <corotet/base/expression.h>
 #include <corotet/base/formula_functions.h>
@@ -20,7 +21,7 @@ namespace
 {
   const dealii::Point<3> p(0.3, 0.7, -0.4);
 
-  // Not used where derivatives exist.
+  // A width of differences that must not be used, as derivatives exist.
   constexpr double no_width = std::numeric_limits<double>::quiet_NaN();
 
   std::array<double, 2>
@@ -39,7 +40,7 @@ namespace
          const double       second)
   {
     const auto found = derivatives(formula, t);
-    // Some tens of operations.
+    // The round-off of some tens of operations.
     EXPECT_NEAR(found[0], first, 1e-14 * (1 + std::abs(first)))
       << formula << " at " << t;
     EXPECT_NEAR(found[1], second, 1e-14 * (1 + std::abs(second)))
@@ -150,8 +151,8 @@ TEST(TimeDerivatives, EveryFunction)
   EXPECT_GE(n, 35u);
 }
 
-// A formula means the same with derivatives and without: muParser's precedence
-// and numbers.
+// A formula means the same with derivatives and without: precedence of
+// operators and numbers are those of muParser.
 TEST(TimeDerivatives, SameSyntax)
 {
   for (const std::string formula : {"-x^2",
@@ -184,9 +185,9 @@ TEST(TimeDerivatives, SameSyntax)
       << formula;
 }
 
-// At a kink or jump they are those of what follows, exactly: nothing of the
-// other side, and nothing infinite. Also if the time is that of the kink but
-// for round-off, as times of steps are.
+// At a kink or jump the derivatives are exactly those on its right: nothing of
+// the left side, and nothing infinite. This holds also where the time is that
+// of the kink up to round-off, as times of steps are.
 TEST(TimeDerivatives, WhatFollowsAtKinks)
 {
   expect("ramp(t, 0, 2)", 0, 0.5, 0);
@@ -198,8 +199,8 @@ TEST(TimeDerivatives, WhatFollowsAtKinks)
   expect("half_sine(t, 0, 1)", 1, 0, 0);
   expect("pulse(t, 0, 1)*t", 0, 1, 0);
   expect("pulse(t, 0, 1)*t", 1, 0, 0);
-  // An argument that stays where the pulse begins is inside for ever, one at
-  // its end outside.
+  // A constant argument where the pulse begins is inside of the pulse for ever,
+  // one where it ends is outside.
   expect("pulse(1, 1, 2)*t", 0.5, 1, 0);
   expect("pulse(2, 1, 2)*t", 0.5, 0, 0);
   expect("abs(t)", 0, 1, 0);
@@ -220,8 +221,8 @@ TEST(TimeDerivatives, WhatFollowsAtKinks)
     }
 }
 
-// Of a table the derivatives of its polynomials: 1 + t and 3 t - 1; of cubic
-// ones, with slopes s at the rows, the Hermite polynomials.
+// Derivatives of a table are those of its polynomials: here 1 + t and 3 t - 1;
+// for cubic interpolation, with slopes s at the rows, the Hermite polynomials.
 TEST(TimeDerivatives, Tables)
 {
   const auto at = [](const std::string &formula, const double t) {
@@ -240,26 +241,27 @@ TEST(TimeDerivatives, Tables)
   expect_line("line(t)", 3, 0);
   expect_line("line(2 - t)", 1, -1);
 
-  // The slopes of the parabola through three rows: 1/3, 5/3 and at the end
-  // 13/3. In the first interval s = t.
+  // The slopes are those of the parabola through three rows: 1/3, 5/3 and at
+  // the end 13/3. In the first interval s = t.
   const double s = 0.25, a = 1. / 3, b = 5. / 3;
   const double c2 = 3 - 2 * a - b, c3 = a + b - 2;
   const auto   found = at("curve(t)", s);
   EXPECT_NEAR(found[0], a + 2 * c2 * s + 3 * c3 * s * s, 1e-15);
   EXPECT_NEAR(found[1], 2 * c2 + 6 * c3 * s, 2e-15);
-  // Continuous slopes, so the chain rule holds at rows, too.
+  // Slopes are continuous, so the chain rule holds at rows, too.
   EXPECT_NEAR(at("curve(sin(t))", 0)[0], a, 1e-15);
   EXPECT_NEAR(at("curve(t)", 1)[0], b, 1e-15);
   EXPECT_NEAR(at("curve(t)", std::nextafter(1., 0.))[0], b, 1e-14);
   EXPECT_EQ(at("curve(t)", 3)[0], 0);
 }
 
-// Where there is no finite derivative, differences of the given width take its
-// place: exact for polynomials of degree three and two.
+// Where there is no finite derivative, differences of the given width replace
+// it: exact for polynomials of degree three (first derivative) and two
+// (second).
 TEST(TimeDerivatives, DifferencesWhereThereIsNone)
 {
   const double h = 1e-3;
-  // The triangle wave, whose formula has zero over zero at its peaks.
+  // A triangle wave whose derivative is zero over zero at its peaks.
   for (const double t : {0.25, 1.25})
     {
       const auto found = derivatives("asin(sin(2*pi*t))", t, h);
@@ -269,10 +271,10 @@ TEST(TimeDerivatives, DifferencesWhereThereIsNone)
   const auto root = derivatives("sqrt(t^2)", 0, h);
   EXPECT_NEAR(root[0], 1, 1e-14);
   EXPECT_NEAR(root[1], 0, 1e-11);
-  // Backwards where the formula ends.
+  // Differences are backward where the domain of the formula ends.
   EXPECT_TRUE(std::isfinite(derivatives("sqrt(1 - t)^3", 1, h)[0]));
   EXPECT_TRUE(std::isfinite(derivatives("sqrt(1 - t)", 1, h)[1]));
-  // Smooth, but not for the rules.
+  // This function is smooth, but the rules give no finite derivative.
   const auto flat = derivatives("if(t > 0, exp(-1/t), 0)", 0, h);
   EXPECT_LT(std::abs(flat[0]), 1e-100);
   EXPECT_LT(std::abs(flat[1]), 1e-100);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Entries of candidates that are not selected: refused if nobody has made the
-// choice, else named, with the place in the file; not if they have their
-// default values, which the file of a finished run sets all of, or if something
-// else reads them.
+// Entries of candidates that are not selected: refused if the choice was not
+// set, else reported with their place in the file. Not reported are entries
+// with their default values, as the file of a finished run sets all of them,
+// and entries that something else reads.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/unused_entries.h>
@@ -17,7 +17,7 @@ using corotet::find_unused_entries;
 
 namespace
 {
-  // A choice between a box and a file, which is made within a section.
+  // A choice between a box and a file in a section of a parameter file.
   class Choice
   {
   public:
@@ -35,7 +35,7 @@ namespace
       prm.declare_entry("Version", "4");
       prm.leave_subsection();
       prm.leave_subsection();
-      // Not a candidate.
+      // A subsection that is no candidate of the choice.
       prm.enter_subsection("names");
       prm.declare_entry("Side", "left");
       prm.leave_subsection();

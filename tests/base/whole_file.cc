@@ -12,8 +12,8 @@ using namespace corotet;
 
 namespace
 {
-  // A file that is there, can be opened and fails as soon as it is read, as one
-  // on a broken disk does: at the address zero is no memory.
+  // A file that exists, can be opened and fails as soon as it is read, like one
+  // on a broken disk: there is no memory at the address zero.
   const std::string unreadable = "/proc/self/mem";
 
   std::string
@@ -48,8 +48,8 @@ TEST(WholeFile, FailureIsNoEnd)
             unreadable + ": cannot be read to its end");
   EXPECT_EQ(failure([] { read_whole_file("/no/such/file"); }),
             "/no/such/file: cannot be read (permission?)");
-  // What a parameter file has after the place of the failure would be at its
-  // default.
+  // If the failure passed for the end of the file, all entries behind it would
+  // have their defaults.
   Example example;
   EXPECT_EQ(failure([&] {
               example.refusal("case.prm", "include " + unreadable + "\n");

@@ -70,7 +70,7 @@ TEST(BoundaryConditions, Refusals)
             std::string::npos);
 }
 
-// Names in quotes may have what lists are made of.
+// Names in quotes may have the characters that separate parts of lists.
 TEST(BoundaryConditions, NamesInQuotes)
 {
   const PlaceNames own({{{0, "face, x"}, {1, "a: b & c"}, {2, "top"}}, {}},
@@ -102,16 +102,16 @@ TEST(BoundaryConditions, DifferentComponentsMayDiffer)
                                {"Traction", "left: 1; 2*x; 0, right: 0; 0; 1"},
                                {"Pressure", "2: 1e5"}}),
             "nothing was refused");
-  // An edge is none of its sides.
+  // A condition on the edge of two sides is no condition on these sides.
   EXPECT_EQ(condition_refusal({{"Displacement", "left & top: 0; 0; t"},
                                {"Traction", "left: 1; 2; 3"},
                                {"Pressure", "top: 1e5"}}),
             "nothing was refused");
 }
 
-// Edges and corners have conditions like boundaries have, each of its own; but
-// nothing acts on their area. Where several things have a name, it means all of
-// them; a number means a boundary before it means an edge.
+// Edges and corners have conditions of their own, as boundaries have; but
+// tractions and pressures need an area. A name that several things have means
+// all of them; a number means a boundary rather than an edge.
 TEST(BoundaryConditions, EdgesAndCorners)
 {
   EXPECT_EQ(condition_refusal(
@@ -141,7 +141,7 @@ TEST(BoundaryConditions, EdgesAndCorners)
             "Boundary conditions/Pressure: a pressure acts on an area: found "
             "'point', which is a corner; allowed are boundaries, and the mesh "
             "has the boundaries: left, right, top");
-  // The boundary of this name has an area.
+  // The boundary with this name has an area; the edge with it has none.
   EXPECT_EQ(condition_refusal({{"Pressure", "right: 1"}}),
             "nothing was refused");
   EXPECT_EQ(condition_refusal({{"Fixed", "pont"}}),
@@ -187,7 +187,8 @@ TEST(BoundaryConditions, NamesOfSeveralBoundaries)
 }
 
 // Edges and corners are the nodes on all boundaries that are named, whatever
-// rank has the faces: of 2 x 2 x 2 cuboids of degree p, an edge has 2 p + 1.
+// rank has the faces: an edge of 2 x 2 x 2 cuboids of degree p has 2 p + 1
+// nodes.
 TEST(PrescribedMotion, EdgesAndCorners)
 {
   for (const unsigned int degree : {1u, 2u, 3u})
@@ -214,7 +215,7 @@ TEST(PrescribedMotion, EdgesAndCorners)
       dealii::Utilities::MPI::sum(n_found, MPI_COMM_WORLD, n_found);
       EXPECT_EQ(n_found, (std::vector<unsigned int>{1, 1, 1, 2 * degree + 1}));
 
-      // Other ranks know the same of their copies.
+      // Other ranks have the same prescribed unknowns in their copies of nodes.
       Vector marks;
       body.discretization.initialize_vector(marks);
       for (const unsigned int i : body.motion.unknowns())
@@ -236,8 +237,8 @@ TEST(PrescribedMotion, BoundariesThatDoNotMeetAreRefused)
             "a corner");
 }
 
-// Prescribed nodes carry the expression; velocity and acceleration are its
-// derivatives, but for round-off of numbers of size one.
+// Prescribed nodes move by the expression; velocity and acceleration are its
+// derivatives, to the round-off of numbers of size one.
 TEST(PrescribedMotion, DerivativesInTime)
 {
   MovingBody   body(box("1, 1, 1", "2, 2, 2"),
@@ -298,7 +299,7 @@ TEST(PrescribedMotion, NotFiniteIsRefused)
     "finite: found inf");
 }
 
-// Finite at t = 0 only.
+// This displacement is finite at t = 0 only, so it has no derivatives.
 TEST(PrescribedMotion, NoVelocityIsRefused)
 {
   MovingBody        body(box("1, 1, 1", "1, 1, 1"),

@@ -57,11 +57,12 @@ TEST(CellBatches, SmallBodiesStayInTheCaches)
   EXPECT_FALSE(body.batches().exceed_caches<float>());
 }
 
-// Chunks follow each other without gaps; the numbers of the batches are those
-// of the cells' nodes, each node has one number, and all numbers have a cell.
+// Chunks follow each other without gaps. The numbers in a batch are those of
+// its cells' nodes; each node has one number in a chunk, and each number
+// belongs to a cell.
 TEST(CellBatches, ChunksNumberTheNodesOfTheirCells)
 {
-  // 148,000 nodes: several chunks.
+  // The body has 148,000 nodes, enough for several chunks.
   const CubicBox     body("18, 18, 18");
   const CellBatches &batches = body.batches();
   EXPECT_TRUE(batches.exceed_caches<double>());
@@ -100,9 +101,9 @@ TEST(CellBatches, ChunksNumberTheNodesOfTheirCells)
   EXPECT_EQ(next_batch, batches.n_batches());
 }
 
-// What a sweep over owned cells does with sums: each slot is empty when a node
-// gets it, a node finds what earlier chunks have left, and at the end of a
-// chunk every final node has had all cells that it has on this rank.
+// A sweep over owned cells keeps sums in slots: each slot is empty when a node
+// gets it, a node finds the sum of earlier chunks, and at the end of a chunk
+// every final node has had all its cells on this rank.
 TEST(CellBatches, SumsAreCompleteWhenTheyAreTaken)
 {
   const CubicBox                       body("18, 18, 18");
@@ -146,10 +147,10 @@ TEST(CellBatches, SumsAreCompleteWhenTheyAreTaken)
         ASSERT_EQ(met[n], n_cells_of_node[n]);
     }
   EXPECT_EQ(next_node, d.first_shared_node());
-  // What is left belongs to nodes that other ranks have, in their order.
+  // The remaining slots belong to nodes that other ranks have, in their order.
   for (unsigned int n = d.first_shared_node(); n < d.n_local_nodes(); ++n)
     EXPECT_EQ(n_in_slot[n - d.first_shared_node()], n_cells_of_node[n]);
-  // Slots of the others are used again.
+  // Slots of all other nodes are used more than once.
   std::size_t n_continued = 0;
   for (const CellBatches::Chunk &chunk : batches.chunks())
     n_continued += batches.continued_nodes(chunk).size();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Cells of a cuboid: one in the middle, regular in a cube, and four in its
-// corners.
+// Proportions of the five cells of a cuboid: one in the middle, which is
+// regular in a cube, and four in its corners.
 
 #include <corotet/discretization/cell_proportions.h>
 
@@ -30,8 +30,8 @@ namespace
   }
 } // namespace
 
-// The regular tetrahedron becomes the corner of a cube by stretches of
-// sqrt(2), sqrt(2) and 1 / sqrt(2): it is flat by 2.
+// The corner cell of a cube is a regular tetrahedron stretched by sqrt(2),
+// sqrt(2) and 1 / sqrt(2): it is flat by a factor of 2.
 TEST(CellProportions, OfCubes)
 {
   const CellProportions found = proportions("3, 2, 2", "3, 2, 2");
@@ -42,8 +42,8 @@ TEST(CellProportions, OfCubes)
   EXPECT_EQ(found.text(), "no cell is flat or stretched by more than 4");
 }
 
-// The cell in the middle has the ratio of the cuboid; those in the corners are
-// flatter, by less than 2, or less stretched.
+// The cell in the middle has the proportions of the cuboid; those in the
+// corners are flatter by a factor of less than 2, or less stretched.
 TEST(CellProportions, OfFlatAndStretchedCuboids)
 {
   const CellProportions flat = proportions("3, 2, 0.2", "3, 2, 2");
@@ -63,7 +63,7 @@ TEST(CellProportions, OfFlatAndStretchedCuboids)
   EXPECT_NEAR(stretched.largest_ratio, 10, accuracy);
 }
 
-// One layer of cells is flat, the others are not: the worst cell is there.
+// Only the cells of one layer are flat, so the worst cell is in it.
 TEST(CellProportions, WorstCell)
 {
   SerialMesh mesh = box("2, 2, 8", "2, 2, 8");

@@ -28,8 +28,8 @@ namespace
       , coarse(fine)
     {}
 
-    // Interpolation at the coarser nodes, whose places follow from the vertices
-    // of the cells.
+    // Interpolates a function at the coarser nodes, whose positions follow from
+    // the vertices of the cells.
     Vector
     interpolate(const std::function<Tensor<1, 3>(const Point<3> &)> &function)
     {
@@ -69,14 +69,14 @@ namespace
   }
 } // namespace
 
-// The number of nodes is deal.II's, and every one has one owner.
+// The number of nodes is deal.II's, and each node has one owner.
 TEST_P(CoarserNodesTest, AreThoseOfTheElement)
 {
   const Discretization same(mesh, GetParam().coarser());
   EXPECT_EQ(coarse.n_global_nodes(), same.n_global_nodes());
   EXPECT_EQ(coarse.degree(), same.degree());
   EXPECT_EQ(coarse.n_local_cells(), same.n_local_cells());
-  // Vertices are numbered by the node that is there.
+  // The coarser node at a vertex has the number of the finer node there as key.
   for (unsigned int c = 0; c < coarse.n_local_cells(); ++c)
     for (unsigned int v = 0; v < 4; ++v)
       EXPECT_EQ(coarse.key(coarse.cell_nodes(c)[v]), fine.cell_nodes(c)[v]);
@@ -99,11 +99,11 @@ TEST_P(CoarserNodesTest, EmbeddingIsExact)
           1 + function(fine.node_position(n))[a];
       }
   Vector coarse_u = interpolate(function);
-  // Ghost values come from their owners.
+  // prolongate_add() needs ghost values, which their owners send.
   coarse_u.zero_out_ghost_values();
   coarse_u.update_ghost_values();
   coarse.prolongate_add(u, coarse_u);
-  // Values of O(10).
+  // The round-off of values of O(10).
   EXPECT_LE(largest_difference(u, expected), 1e-13);
 }
 

@@ -35,7 +35,7 @@ TEST_P(DiscretizationTest, NumberingIsDealIIs)
                                                  discretization.dof_handler());
   const auto &fe = discretization.finite_element();
   std::vector<dealii::types::global_dof_index> dofs(fe.dofs_per_cell);
-  // Cells are in an order of their own: found by their vertices.
+  // Cells have another order than deal.II's: they are found by their vertices.
   std::map<std::array<dealii::types::global_dof_index, 4>, unsigned int> cells;
   const auto key = [&](const auto &first_unknown) {
     return std::array<dealii::types::global_dof_index, 4>{
@@ -62,7 +62,7 @@ TEST_P(DiscretizationTest, NumberingIsDealIIs)
             {
               const auto dof = dofs[fe.component_to_system_index(a, i)];
               EXPECT_EQ(dof, 3 * discretization.global_node(nodes[i]) + a);
-              // Positions of O(1), round-off.
+              // The round-off of positions of O(1).
               EXPECT_LE(points.at(dof).distance(
                           discretization.node_position(nodes[i])),
                         1e-14);
@@ -73,9 +73,9 @@ TEST_P(DiscretizationTest, NumberingIsDealIIs)
             discretization.dof_handler().n_dofs());
 }
 
-// Every cell that touches an owned node is a local cell: their volumes around
-// each node, summed here without communication, equal the sum over owned cells
-// with it.
+// Every cell that touches an owned node is a local cell: the volume of the
+// local cells around each node, summed without communication, equals the sum
+// over the owned cells of all ranks with that node.
 TEST_P(DiscretizationTest, GhostCellsCompleteOwnedNodes)
 {
   Vector with_ghosts, communicated;
@@ -93,7 +93,7 @@ TEST_P(DiscretizationTest, GhostCellsCompleteOwnedNodes)
   EXPECT_LE(largest_difference(with_ghosts, communicated), 1e-14);
 }
 
-// Volume 2 of the box and area 10 of its surface, over all ranks.
+// The box has the volume 2 and the surface area 10, over all ranks.
 TEST_P(DiscretizationTest, VolumeAndSurface)
 {
   double volume_of_cells = 0, area = 0;

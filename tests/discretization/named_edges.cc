@@ -18,7 +18,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Those of all ranks, in an order that does not depend on these.
+  // The positions and components of the prescribed unknowns of all ranks, in an
+  // order that does not depend on how many ranks there are.
   std::vector<std::array<double, 4>>
   prescribed_places(const MovingBody &body)
   {
@@ -36,9 +37,8 @@ namespace
     return all;
   }
 
-  // A unit cube of 2 x 2 x 2 cuboids with names for the line around it at half
-  // its height, for the one below its roof on the side x = 0, and for the point
-  // in its middle.
+  // A unit cube of 2 x 2 x 2 cuboids. Named are the line around it at half its
+  // height, its upper edge at x = 0, and the point in its middle.
   SerialMesh
   box_with_lines(const unsigned int n_refinements)
   {
@@ -51,11 +51,11 @@ namespace
   }
 } // namespace
 
-// All nodes of a line are held, whatever their rank and the degree, and only
-// these: of the 8 edges around the cube, cut in two by a refinement, 8 p or 16
-// p nodes; of a corner one. A component that one condition leaves free is what
-// another one says: the line at x = 0 is held in x only. (With some ranks there
-// are nodes whose owner has no cell with the edge.)
+// All nodes of a line are held, whatever their rank and the degree p, and only
+// these: 8 p nodes on the 8 edges around the cube, 16 p after a refinement, and
+// one node of a corner. A component that one condition leaves free may be
+// prescribed by another: the line at x = 0 is held in x only. (On several ranks
+// there are nodes whose owner has no cell with the edge.)
 TEST(PrescribedMotion, NamedEdgesAndCorners)
 {
   for (const unsigned int n_refinements : {0u, 1u})
@@ -101,7 +101,8 @@ TEST(PrescribedMotion, NamedEdgesAndCorners)
             EXPECT_NEAR(body.state.u.local_element(i), 0.2 * x[1], 1e-16);
           }
 
-        // Other ranks know the same of their copies.
+        // Other ranks have the same prescribed unknowns in their copies of
+        // nodes.
         Vector marks;
         body.discretization.initialize_vector(marks);
         for (const unsigned int i : body.motion.unknowns())
@@ -113,8 +114,8 @@ TEST(PrescribedMotion, NamedEdgesAndCorners)
       }
 }
 
-// A line and a side that it ends at have one point in common; a line and a
-// point that is not on it none, and two conditions must agree where they meet.
+// A line and a side where it ends have one point in common; a line and a point
+// that is not on it have none. Two conditions must agree where they meet.
 TEST(PrescribedMotion, EdgesMeetOtherPlaces)
 {
   MovingBody body(box_with_lines(1),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The search for points in cells: what the map sends somewhere is found there
-// again, in thin and strongly curved cells, too; points beyond the surface
-// belong to no cell.
+// The search for points in cells: a point that the map of a cell gives is found
+// again in that cell, also if it is thin and strongly curved; points beyond the
+// surface belong to no cell.
 
 #include <corotet/discretization/nearby_cells.h>
 #include <corotet/discretization/point_search.h>
@@ -51,8 +51,8 @@ namespace
       return {x, J};
     }
 
-    // Whether a cell of any rank has the point; all cells that have it are
-    // among those near it. Collective.
+    // Whether a cell of any rank contains the point; checks also that all cells
+    // that contain it are among those near it. Collective.
     bool
     is_in_body(const Point<3> &x) const
     {
@@ -94,8 +94,8 @@ namespace
           }
     }
 
-    // A point of each face of the surface, moved along its normal by fractions
-    // of the size of its cell.
+    // Moves a point of each face of the surface along its normal, by fractions
+    // of the size of its cell, and checks on which side it is.
     void
     expect_surface_is_sharp(const double size) const
     {
@@ -128,7 +128,7 @@ namespace
     }
 
   private:
-    // Those of all ranks.
+    // Checks the points of all ranks on each rank. Collective.
     void
     check(const std::vector<Point<3>> &points, const bool expected) const
     {
@@ -165,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(
                                    Element(3),
                                    Element::quadratic_with_bubbles())));
 
-// Cells of ordinary shape, half of them straight.
+// Cells of ordinary shape, half of which are straight.
 TEST(PointSearch, HalfCurvedBox)
 {
   for (const auto &[q, element] : curved_elements)
@@ -177,8 +177,9 @@ TEST(PointSearch, HalfCurvedBox)
     }
 }
 
-// Of points in the body and around it, by comparison with all cells and nodes;
-// only few cells are looked at.
+// Distances, nodes and cells found for points in the body and around it are
+// compared with a search through all cells and nodes; and the search considers
+// few cells only.
 TEST(NearbyCells, AreThoseOfAllCells)
 {
   const MovingBody body(box("2, 1, 1", "20, 10, 10"), element_text(Element(2)));
@@ -222,6 +223,6 @@ TEST(NearbyCells, AreThoseOfAllCells)
         << x;
       n_looked_at += nearby.cells(x).size();
     }
-  // A point is in a few of the boxes of 64 cells.
+  // Each box has 64 cells, and a point is in a few boxes only.
   EXPECT_LT(n_looked_at, 0.05 * n_points * disc.n_owned_cells());
 }

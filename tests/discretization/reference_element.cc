@@ -25,8 +25,8 @@ namespace
     return n < 2 ? 1. : n * factorial(n - 1);
   }
 
-  // Largest error of the rule for the means of all monomials of degree up to
-  // @p degree: 6 i! j! k! / (i + j + k + 3)!.
+  // The largest error of the rule for the means of all monomials of degree up
+  // to @p degree, which are 6 i! j! k! / (i + j + k + 3)!.
   double
   rule_error(const ReferenceElement::PointValues &rule,
              const unsigned int                   degree)
@@ -54,8 +54,8 @@ class ReferenceElementTest : public testing::TestWithParam<Element>
 {};
 
 // The stiffness rule integrates products of gradients, of degree 2(p-1), and
-// the load rule products of shape functions. Round-off of a sum of up to 35
-// terms, with weights of 16 digits.
+// the load rule products of shape functions. The tolerance is the round-off of
+// a sum of up to 35 terms with weights of 16 digits.
 TEST_P(ReferenceElementTest, RulesAreExact)
 {
   const ReferenceElement element(GetParam());
@@ -98,8 +98,8 @@ TEST_P(ReferenceElementTest, PartitionOfUnity)
   EXPECT_NEAR(mass, 1, 1e-14);
 }
 
-// The area vectors of the faces of the reference tetrahedron: outwards, half
-// the cross product of the tangents; together they close.
+// The area vectors of the faces of the reference tetrahedron point outwards and
+// are half the cross product of the tangents; their sum is zero.
 TEST_P(ReferenceElementTest, FacesPointOutwards)
 {
   const ReferenceElement element(GetParam());
@@ -137,7 +137,7 @@ protected:
 // Quadrature at the nodes: weights are the means of the shape functions, 17/840
 // at vertices, 4/105 at edges, 27/280 at faces, 32/105 in the cell (Geevers,
 // Mulder, van der Vegt 2018). They are positive; the rule is exact for the
-// functions of the element, so for degree 3, and for no more.
+// functions of the element, so up to degree 3, and no further.
 TEST_F(BubblesTest, NodalQuadrature)
 {
   ReferenceElement::PointValues nodes;
@@ -156,14 +156,14 @@ TEST_F(BubblesTest, NodalQuadrature)
                            32. / 105,
                   1e-15);
     }
-  // Round-off of means that are sums of products.
+  // The round-off of means that are sums of products.
   EXPECT_LE(rule_error(nodes, 3), 4e-15);
   EXPECT_GE(rule_error(nodes, 4), 1e-4);
 }
 
-// The stiffness rule is exact for linear functions times gradients, degree 4,
-// the load rule for quadratic ones times shape functions, that of the mass for
-// products of two, degree 8.
+// The stiffness rule is exact for linear functions times gradients, degree 4;
+// the load rule for quadratic functions times shape functions; the mass for
+// products of two shape functions, degree 8.
 TEST_F(BubblesTest, Rules)
 {
   EXPECT_LE(rule_error(element.stiffness_rule, 5), 4e-15);
@@ -173,7 +173,7 @@ TEST_F(BubblesTest, Rules)
   EXPECT_NEAR(element.mass[14][14], 65536. * 6 * 16 / factorial(11), 1e-15);
 }
 
-// Those of other nodes vanish on a face: it has its own seven.
+// Only the shape functions of a face's own seven nodes do not vanish on it.
 TEST_F(BubblesTest, FaceNodes)
 {
   for (unsigned int f = 0; f < 4; ++f)
@@ -194,7 +194,7 @@ TEST_F(BubblesTest, FaceNodes)
     }
 }
 
-// M_ij of degree 1 is (1 + delta_ij) / 20 of the cell's mass.
+// For degree 1, M_ij is (1 + delta_ij) / 20 of the cell's mass.
 TEST(ReferenceElement, LinearMass)
 {
   const ReferenceElement element(1);

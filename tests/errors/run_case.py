@@ -32,8 +32,9 @@ def check(case, program, seconds):
     parameter_file = directive(text, "file") or case.name
     expected = case.with_suffix(".output").read_text()
     with tempfile.TemporaryDirectory() as folder:
-        # If the program accepts the case against expectation, its results must not land beside the case.
-        # Quiet, as what was read before the error (the mesh, say) would be on standard output.
+        # If the program accepts the case against expectation, its results must
+        # not land beside the case. The run is quiet, as output from before the
+        # error (about the mesh, say) would be on standard output.
         arguments.append("--quiet")
         if "--output" not in arguments:
             arguments += ["--output", f"{folder}/output"]

@@ -17,8 +17,8 @@ Bathe::step(corotet::SecondOrderSystem &system,
 {
   const double dt = step.dt, h = 0.5 * dt;
 
-  // Each stage starts from a guess, here of constant acceleration, that
-  // satisfies its formulas. The trapezoidal rule's:
+  // Each stage starts from a guess, here with constant acceleration, that
+  // satisfies the formulas of the stage. Those of the trapezoidal rule are:
   //   v_1 = 2 (u_1 - u_0) / h - v_0,  a_1 = 2 (v_1 - v_0) / h - a_0.
   middle.u = state.u;
   middle.u.add(h, state.v, 0.5 * h * h, state.a);
@@ -26,9 +26,9 @@ Bathe::step(corotet::SecondOrderSystem &system,
   middle.v.add(h, state.a);
   middle.a = state.a;
   system.prescribe(middle, step.time + h, 1.);
-  // How v_1 and a_1 change with u_1; and what the guess goes on from, with
-  // which part of the acceleration: the solver starts without it where that is
-  // better.
+  // Given are the derivatives of v_1 and a_1 by u_1, and the state that the
+  // guess starts from with its factor of the acceleration: the solver leaves
+  // out the acceleration where that is better.
   const corotet::StageReport first = system.solve_stage(
     middle, {step.time + h, 2 / h, 4 / (h * h), 1., &state, 0.5 * h * h});
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A clamped bar is pushed along its axis from time 0 on. When its end comes to
-// rest for a moment, where it is stretched most, the push ends: that moment is
-// not known before. The bar then swings as far to the other side.
+// A clamped bar is pushed along its axis from time 0 on. The push ends when the
+// bar's end comes to rest for a moment, where it is stretched most: that moment
+// is not known in advance. The bar then swings as far to the other side.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/mpi.h>
@@ -21,7 +21,7 @@ namespace
 {
   constexpr double length = 10; // m, as in bar.prm
 
-  // Mean over the nodes of the bar's end of a vector's x component.
+  // The mean x component of a vector over the nodes at the bar's end.
   double
   mean_at_end(const corotet::Discretization &discretization,
               const corotet::Vector         &vector)
@@ -77,7 +77,7 @@ main(int argc, char **argv)
   const corotet::AddedCandidate<corotet::ForceKind> kind(
     corotet::candidate<corotet::ForceKind, PushKind>("push", &push));
 
-  // Shows errors once, and makes them an exit status.
+  // run_program() shows errors once, and turns them into an exit status.
   return corotet::run_program(MPI_COMM_WORLD, [&] {
     if (argc != 2)
       throw corotet::InputError("", "let_go needs one parameter file");

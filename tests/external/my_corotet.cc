@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The program corotet with a law of elasticity, a force and a time integrator
-// more.
+// The program corotet with an additional law of elasticity, force and time
+// integrator.
 
 #include <corotet/base/selectable.h>
 #include <corotet/laws/law_kind.h>

@@ -6,7 +6,7 @@
 Push::Push(const corotet::ForceContext &context, const double *value)
   : value(value)
 {
-  // f_i = integral of N_i, by the rule for loads.
+  // The integrals f_i of N_i, by the rule for loads.
   const corotet::Discretization &discretization = context.discretization;
   const auto                    &rule           = context.reference.load_rule;
   discretization.initialize_vector(unit_force);

@@ -15,10 +15,10 @@
 class Push : public corotet::ForceTerm
 {
 public:
-  /// @p value must outlive this object. It may be changed between steps.
+  /// @p value must outlive this object. The value may be changed between steps.
   Push(const corotet::ForceContext &context, const double *value);
 
-  /// Otherwise it would be asked for once.
+  /// Without dependence on time the force would be computed only once.
   bool
   depends_on_time() const override
   {
@@ -30,7 +30,7 @@ public:
 
 private:
   const double *value;
-  /// The force of value 1, on owned entries.
+  /// The force for the value 1, on owned entries.
   corotet::Vector unit_force;
 };
 

@@ -17,8 +17,8 @@ namespace
     return H;
   }
 
-  // F^T F - I and det F - 1, which F itself has not the digits for where H is
-  // small.
+  // F^T F - I, and below det F - 1, from H: where H is small, F has not enough
+  // digits for them.
   Tensor<2, 3>
   twice_strain(const Tensor<2, 3> &H)
   {
@@ -40,10 +40,10 @@ QuadraticVolume::stress(const corotet::IsotropicMaterial &material,
 {
   const Tensor<2, 3> F = deformation_gradient(H), G = transpose(invert(F));
   const double       e = change_of_volume(H);
-  // Numbers that are not finite say that there is no stress.
+  // The law has no stress here, which numbers that are not finite tell.
   if (!(e > -1))
     return NAN * F;
-  // F - G = G (F^T F - I).
+  // The first term is mu (F - G) with F - G = G (F^T F - I).
   return material.mu * G * twice_strain(H) + material.lambda * e * (1 + e) * G;
 }
 

@@ -11,7 +11,7 @@
  *
  *   W = mu / 2 (F : F - 3) - mu ln J + lambda / 2 (J - 1)^2,  J = det F,
  *
- * so P = mu (F - F^-T) + lambda (J - 1) J F^-T. There is none where J <= 0.
+ * so P = mu (F - F^-T) + lambda (J - 1) J F^-T. It has no stress where J <= 0.
  */
 class QuadraticVolume : public corotet::PointLaw
 {

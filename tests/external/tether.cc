@@ -22,7 +22,7 @@ Tether::Tether(const corotet::Discretization &discretization,
   , stiffness(stiffness)
   , length(length)
 {
-  // The nearest of all owned nodes, of all ranks.
+  // Finds the node nearest to the point among the owned nodes of all ranks.
   double distance = std::numeric_limits<double>::infinity();
   for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
     if (discretization.node_position(n).distance(point) < distance)
@@ -72,7 +72,7 @@ Tether::linearize(const Motion &motion)
   const double       l = d.norm();
   if (l <= length)
     return;
-  // Along the rope k, across it the tension over the length.
+  // The stiffness is k along the rope, and tension over length across it.
   const Tensor<2, 3> along    = outer_product(d, d) / (l * l);
   const Tensor<2, 3> identity = dealii::unit_symmetric_tensor<3>();
   derivative = -stiffness * (along + (l - length) / l * (identity - along));

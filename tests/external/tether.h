@@ -20,8 +20,9 @@
 class Tether : public corotet::ForceTerm
 {
 public:
-  /// From the node nearest to @p point of the body at rest to @p anchor [m].
-  /// @p stiffness k in N/m, @p length L in m. Collective.
+  /// A tether from the node nearest to @p point of the body at rest to @p
+  /// anchor [m], with the stiffness k = @p stiffness [N/m] and the length L =
+  /// @p length [m]. Collective.
   Tether(const corotet::Discretization &discretization,
          const dealii::Point<3>        &point,
          const dealii::Point<3>        &anchor,
@@ -64,18 +65,18 @@ public:
                  const double           velocity_factor) const override;
 
 private:
-  /// From the anchor to the node.
+  /// The vector from the anchor to the node.
   dealii::Tensor<1, 3>
   rope(const corotet::Vector &u) const;
 
   const dealii::Point<3> anchor;
   const double           stiffness;
   const double           length;
-  /// The node's local number, where this rank owns it.
+  /// The local number of the node, where this rank owns it.
   unsigned int     node = 0;
   bool             is_owned;
   dealii::Point<3> position;
-  /// df/du of the last linearize().
+  /// The derivative df/du at the last linearize().
   dealii::Tensor<2, 3> derivative;
 };
 

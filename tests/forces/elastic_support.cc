@@ -41,7 +41,7 @@ namespace
     return body.interpolate([&](const Point<3> &) { return u; });
   }
 
-  // c_u times the stiffness of springs and c_v times the damping of dashpots.
+  // The matrix of c_u times the springs plus c_v times the dashpots.
   SurfaceMatrix
   surface_matrix(const MovingBody &body, const double c_u, const double c_v)
   {
@@ -60,7 +60,7 @@ namespace
     return dealii::Utilities::MPI::sum(sum, f.get_mpi_communicator());
   }
 
-  // Forces of springs that do not depend on time.
+  // The forces of springs whose stiffness does not depend on time.
   Vector
   force(MovingBody &body, const Vector &u)
   {
@@ -71,7 +71,7 @@ namespace
     return f;
   }
 
-  // A displacement that is no polynomial of the elements.
+  // A displacement that is not a polynomial of the elements.
   Tensor<1, 3>
   wavy(const Point<3> &x)
   {
@@ -80,8 +80,8 @@ namespace
                          std::sin(x[0] * x[1] + 2 * x[2])});
   }
 
-  // An eighth of the sphere of radius 1 with the hole of radius 1/2, faces of
-  // degree q: boundary z-max is the sphere.
+  // An eighth of a sphere of radius 1 with a hole of radius 1/2 and faces of
+  // degree q; the boundary z-max is the sphere.
   SerialMesh
   thick_shell(const unsigned int n, const unsigned int q)
   {
@@ -106,8 +106,8 @@ INSTANTIATE_TEST_SUITE_P(Elements,
                          ElasticSupportTest,
                          testing::ValuesIn(all_elements));
 
-// A translation u: the force on the side z = 0 of 2 m^2 is - u int k, and the
-// rule is exact for k linear in x: with k_x = 1 + 2 x + 3 y, int k_x = 2 + 4 +
+// Under a translation u, the force on the side z = 0 of 2 m^2 is -u int k. The
+// rule is exact for k linear in x: k_x = 1 + 2 x + 3 y has the integral 2 + 4 +
 // 3 N/m; k_y = 5 everywhere.
 TEST_P(ElasticSupportTest, ForceOfATranslation)
 {
@@ -122,7 +122,7 @@ TEST_P(ElasticSupportTest, ForceOfATranslation)
               1e-13 * 63);
 }
 
-// Springs along the normal resist the motion along it only.
+// Springs along the normal resist only the motion along it.
 TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 {
   Block              body(GetParam(), supports("", "z-min: 7, x-max: 3"));
@@ -134,7 +134,7 @@ TEST_P(ElasticSupportTest, NormalSpringsOnAPlane)
 }
 
 // The force is minus the derivative of the energy, and the matrix minus that of
-// the force: exactly, as the energy is quadratic. Round-off is that of some ten
+// the force: exactly, as the energy is quadratic, to the round-off of some ten
 // terms.
 TEST_P(ElasticSupportTest, Derivatives)
 {
@@ -167,8 +167,8 @@ TEST_P(ElasticSupportTest, Derivatives)
   EXPECT_FALSE(terms.has_surface_damping());
 }
 
-// A with springs, matrix-free, is that without and S, as the assembled matrix
-// is; its diagonal has that of S; prescribed unknowns have no springs.
+// A with springs is A without them plus S, matrix-free and assembled; its
+// diagonal includes that of S; prescribed unknowns have no springs.
 TEST_P(ElasticSupportTest, MatricesAgree)
 {
   Block body(GetParam(),
@@ -188,7 +188,7 @@ TEST_P(ElasticSupportTest, MatricesAgree)
   body.motion.set_zero(u);
   u.zero_out_ghost_values();
   A.vmult(f, u);
-  // Left as it came: without values of ghosts.
+  // vmult() leaves its source as it was: without ghost values.
   EXPECT_FALSE(u.has_ghost_elements());
   A.matrix().vmult(g, u);
   EXPECT_LT(largest_difference(f, g), 1e-13 * f.linfty_norm());
@@ -212,8 +212,8 @@ TEST_P(ElasticSupportTest, MatricesAgree)
                 1e-13 * size);
 }
 
-// Units are the user's: springs that are 1e-14 times as stiff have a matrix of
-// that size, and all of them hold the body.
+// Users choose the units: springs that are 1e-14 times as stiff have a matrix
+// of that size, and none of them is dropped as too small.
 TEST_P(ElasticSupportTest, SizeIsThatOfTheSprings)
 {
   Block        weak(GetParam(), supports("z-min: 1e-14; 2e-14; 3e-14", ""));
@@ -226,8 +226,8 @@ TEST_P(ElasticSupportTest, SizeIsThatOfTheSprings)
   EXPECT_EQ(weak_matrix.springs().size(), stiff_matrix.springs().size());
 }
 
-// On a coarser element of the same cells S is P^T S P with the embedding P: the
-// points and their tensors are the same.
+// On a coarser element S is P^T S P with the embedding P, as both have the same
+// quadrature points and stiffness tensors.
 TEST_P(ElasticSupportTest, CoarserLevels)
 {
   if (GetParam().degree() == 1)
@@ -259,11 +259,11 @@ TEST_P(ElasticSupportTest, CoarserLevels)
   EXPECT_LT(largest_difference(y, z), 1e-14 * 10 * y.linfty_norm());
 }
 
-// An eighth of a sphere of radius 1 less its pole: area 2 pi cos(0.3) / 4.
-// Radial displacements of size one have the energy k area / 2, rotations about
-// the z axis none. Faces of degree q miss the sphere by h^(q + 1), their
-// normals by h^q, but the energy has the square of that; measured with 4 and 8
-// faces along an edge.
+// The boundary is an eighth of a sphere of radius 1 less its pole, with the
+// area 2 pi cos(0.3) / 4. Radial displacements of size one have the energy k
+// area / 2, rotations about the z axis none. The error of faces of degree q is
+// of order h^(q + 1), that of normals h^q, but that of the energy is its
+// square; measured with 4 and 8 faces along an edge.
 TEST(ElasticSupportOnCurvedFaces, Sphere)
 {
   for (const unsigned int q : {2, 3})
@@ -284,15 +284,15 @@ TEST(ElasticSupportOnCurvedFaces, Sphere)
         }
       report(fmt::format("degree {}: error of the energy", q), error[1]);
       report(fmt::format("degree {}: energy of a rotation", q), rotation[1]);
-      // Orders 4 for q = 2 and 3; rotations 2 q. A tenth of the order is for
-      // meshes that are coarse.
+      // Errors have order 4 for q = 2 and 3, rotations order 2 q, less some
+      // tenths as the meshes are coarse.
       EXPECT_LT(error[1], 1e-4);
       EXPECT_LT(error[1], error[0] / std::pow(2, 3.6));
       EXPECT_LT(rotation[1], rotation[0] / std::pow(2, 2 * q - 0.6));
     }
 }
 
-// The area of all springs alike is that of the faces.
+// Springs that are the same everywhere give the area of the faces.
 TEST(ElasticSupportOnCurvedFaces, Area)
 {
   MovingBody   body(thick_shell(8, 3),
@@ -320,8 +320,8 @@ TEST(Dashpots, Force)
   EXPECT_EQ(terms.energy({3., u, v}), 0);
 }
 
-// What is wrong at a later time is the same mistake of the same entry as at the
-// start, and values of other times are as good as before.
+// A wrong value at a later time is reported with the same entry as one at the
+// start, and afterwards the energy at other times is as before.
 TEST(Supports, WrongValuesOfLaterTimes)
 {
   Block             body(1, supports("z-min: 1 - t; 0; 0"));
@@ -347,7 +347,7 @@ TEST(Supports, WrongValuesOfLaterTimes)
   EXPECT_EQ(terms.energy({0.5, u, u}), energy);
 }
 
-// Without the section there is nothing of it; zero stiffness is none, too.
+// Without the section there are no springs, nor with zero stiffness.
 TEST(Supports, Absent)
 {
   for (const std::string &text : {std::string(), supports("z-min: 0; 0; 0")})
@@ -387,7 +387,7 @@ TEST(Supports, Refusals)
   EXPECT_EQ(refusal_of("Elastic", "z-min: 1; 1; 1, z-min: 2; 2; 2"),
             "Supports/Elastic: found boundary 'z-min' twice; allowed: each "
             "boundary once");
-  // Which point says so is the rule's business.
+  // The message may name any point of the quadrature rule.
   for (const std::string value : {"-1", "1 / 0", "sqrt(-1)", "x - 0.5"})
     {
       const std::string text = refusal_of("Elastic normal", "z-min: " + value);

@@ -26,7 +26,7 @@ namespace
     return dealii::Utilities::MPI::sum(sum, MPI_COMM_WORLD);
   }
 
-  // 1 x 2 x 1, with a name for two sides.
+  // A box of 1 x 2 x 1 with a name for two of its sides.
   SerialMesh
   body_with_sides()
   {
@@ -36,7 +36,7 @@ namespace
     return mesh;
   }
 
-  // The external force on that box of 3 kg/m^3 at time t.
+  // The external force on that box, of 3 kg/m^3, at time t.
   struct Loaded : public MovingBody
   {
     Loaded(const Element element, const std::string &text)
@@ -65,8 +65,8 @@ namespace
 class LoadsTest : public testing::TestWithParam<Element>
 {};
 
-// Mass 6 kg; the expression's dependence on time, space, both or none takes
-// four ways through the code, all with the same resultant.
+// The mass is 6 kg. An expression may depend on time, space, both or none: four
+// ways through the code, all with the same resultant.
 TEST_P(LoadsTest, GravityAndBodyForce)
 {
   for (const std::string acceleration :
@@ -85,15 +85,16 @@ TEST_P(LoadsTest, GravityAndBodyForce)
     }
 }
 
-// Area of x-max: 2. The load rule is exact for the linear traction.
+// The area of x-max is 2, and the load rule is exact for a linear traction.
 TEST_P(LoadsTest, Traction)
 {
   Loaded body(GetParam(), tractions("x-max: 1; t; 6*y*z"));
   expect_near(resultant(body.force(3.)), Tensor<1, 3>({2., 6., 6.}), 1e-12);
 }
 
-// The whole force, evenly: through the middle of the surface, of both sides in
-// proportion to their areas of 2 and 1 where a name means two.
+// The whole force is spread evenly, so it acts at the centre of the surface; a
+// name for two sides spreads it over both, in proportion to their areas of 2
+// and 1.
 TEST_P(LoadsTest, SurfaceForces)
 {
   for (const auto &[name, middle] :
@@ -118,7 +119,7 @@ TEST_P(LoadsTest, SurfaceForces)
     }
 }
 
-// All of a point force is at the nearest node, on one rank only.
+// All of a point force acts at the nearest node, on one rank only.
 TEST_P(LoadsTest, PointForce)
 {
   Loaded body(
@@ -137,9 +138,10 @@ TEST_P(LoadsTest, PointForce)
   EXPECT_EQ(dealii::Utilities::MPI::sum(n_loaded, MPI_COMM_WORLD), 2u);
 }
 
-// The middle of a body has several nearest nodes: it is the one with the lowest
-// coordinates, on any number of ranks. Of the box of one cuboid these are the
-// corners, with elements of higher degree nodes inside.
+// Several nodes may be nearest, like those around the middle of a body: then
+// the force acts at the one with the lowest coordinates, on any number of
+// ranks. In a box of one cuboid these nodes are the corners, with elements of
+// higher degree nodes inside.
 TEST_P(LoadsTest, PointForceBetweenNodes)
 {
   MovingBody body(
@@ -166,7 +168,8 @@ TEST_P(LoadsTest, PointForceBetweenNodes)
     x = dealii::Utilities::MPI::max(x, MPI_COMM_WORLD);
   const Point<3> found(loaded[0], loaded[1], loaded[2]);
   EXPECT_NEAR(found.distance(target), distance, 1e-9);
-  // None that is as near has lower coordinates, the first that differs.
+  // No node that is as near has lower coordinates; the first that differs
+  // counts.
   constexpr double round_off = 1e-9;
   for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
     if (position(n).distance(target) < (1 + round_off) * distance)
@@ -209,9 +212,9 @@ TEST_P(LoadsTest, PressureOnClosedSurface)
               1e-12 * scale);
 }
 
-// The pressure turns with the body: on x-max of area 2, turned by a right angle
-// about z, the force -p A e_x becomes -p A e_y. With linear elasticity it does
-// not turn.
+// A pressure follows the body: on x-max, of area 2, which is rotated by a right
+// angle about z, the force -p A e_x becomes -p A e_y. With linear elasticity it
+// keeps its direction.
 TEST_P(LoadsTest, PressureFollows)
 {
   for (const std::string type : {"corotational", "linear"})
@@ -270,8 +273,8 @@ TEST(Loads, Refusals)
   EXPECT_NE(refused("top: 0; 0; 1").find("'top'"), std::string::npos);
 }
 
-// Points that are farther from the body than a fifth of the height of any cell
-// are outside, in all directions.
+// Points are refused as outside, in all directions, if they are farther from
+// the body than a fifth of the height of any cell.
 TEST(Loads, PointsOutside)
 {
   for (unsigned int i = 0; i < 27; ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A force that a program adds: the example of CONTRIBUTING.md.
+// A force that a program adds: the example in CONTRIBUTING.md.
 
 #include <corotet/forces/force_kind.h>
 #include <corotet/time_integration/central_difference.h>
@@ -17,9 +17,10 @@ using dealii::Tensor;
 
 namespace
 {
-  // A force per mass that pulls back to the place at rest, - w^2 u: f = - w^2 M
-  // u, with the energy w^2 u . M u / 2. As K does not have it, its derivative
-  // is of the kind that is neither the body's nor the surface's.
+  // A force per mass that pulls back to the position at rest, -w^2 u: f = -w^2
+  // M u, with the energy w^2 u . M u / 2. K does not contain it, so its
+  // derivative is of the kind that belongs neither to elasticity nor to the
+  // surface.
   class Pull : public corotet::ForceTerm
   {
   public:
@@ -127,10 +128,10 @@ namespace
   };
 } // namespace
 
-// A free body that starts with v = 1 m/s in x, y and z swings with u = sin(w t)
-// / w; with w = 2 and t = 1. Implicit midpoint's phase is wrong by (w dt)^2 /
-// 12 of w t, 7e-5 of 2; that of central difference by half of that. One Newton
-// iteration is enough.
+// A free body that starts with v = 1 m/s in x, y and z oscillates with u =
+// sin(w t) / w; here w = 2 and t = 1. The relative error of the phase w t = 2
+// is (w dt)^2 / 12 with implicit midpoint, so 7e-5, and half of that with
+// central differences. One Newton iteration is enough.
 TEST(OutsideForces, PullOfContributing)
 {
   const AddedCandidate<ForceKind> added(candidate<ForceKind, PullKind>("pull"));
@@ -156,14 +157,14 @@ TEST(OutsideForces, PullOfContributing)
       EXPECT_NEAR(body.state.u.linfty_norm(), std::sin(2.) / 2, 5e-5);
       Vector u(body.state.u);
       u.update_ghost_values();
-      // Of a mass of 1 kg that moves along x, y and z.
+      // The energy of a mass of 1 kg that moves along x, y and z.
       EXPECT_NEAR(body.system.equation().terms.energy({1., u, u}),
                   1.5 * std::pow(std::sin(2.), 2),
                   2e-4);
     }
 }
 
-// Entries belong to one kind.
+// Two kinds of force may not have the same entry.
 TEST(OutsideForces, EntryOfAnotherKind)
 {
   class Second : public PullKind
@@ -194,8 +195,8 @@ TEST(OutsideForces, EntryOfAnotherKind)
     }
 }
 
-// The velocity that a force sees in statics is zero, also of a force that does
-// not say that it depends on it.
+// In statics a force gets the velocity zero, also if it does not say that it
+// depends on it.
 TEST(OutsideForces, VelocityInStatics)
 {
   class Watch : public Pull

@@ -14,7 +14,7 @@ using dealii::Tensor;
 
 namespace
 {
-  // The force terms of a 1 x 2 x 1 box.
+  // The force terms of a box of 1 x 2 x 1.
   struct UnderPressure : public MovingBody
   {
     UnderPressure(const Element      element,
@@ -57,7 +57,7 @@ namespace
         f, v, factor, 0., Tangent::consistent);
     }
 
-    // A shape that bends, stretches and shears every side.
+    // A displacement that bends, stretches and shears every side.
     Vector
     shape() const
     {
@@ -74,7 +74,7 @@ class PressureTangent : public testing::TestWithParam<Element>
 {};
 
 // A pressure that varies in space and time, on three sides that meet in edges.
-// The force is quadratic in u, so that central differences are exact but for
+// The force is quadratic in u, so central differences are exact up to their
 // round-off, 1e-16 / 1e-2.
 TEST_P(PressureTangent, IsTheDerivative)
 {
@@ -97,7 +97,7 @@ TEST_P(PressureTangent, IsTheDerivative)
   EXPECT_LE(error, 1e-12);
 }
 
-// It adds: what was in f stays.
+// The derivative is added to the vector f.
 TEST_P(PressureTangent, Adds)
 {
   UnderPressure body(GetParam(), "z-max: 1+x");
@@ -110,7 +110,7 @@ TEST_P(PressureTangent, Adds)
   EXPECT_LE(twice.linfty_norm(), 1e-14 * once.linfty_norm());
 }
 
-// A uniform pressure on the whole surface has a potential, the volume: its
+// A uniform pressure on the whole surface has a potential, the volume, so its
 // derivative is symmetric. On a part of the surface it is not.
 TEST_P(PressureTangent, SymmetricOnAClosedSurface)
 {
@@ -128,7 +128,8 @@ TEST_P(PressureTangent, SymmetricOnAClosedSurface)
     }
 }
 
-// Linear elasticity has pressures on the surface at rest.
+// In linear elasticity pressures act on the surface at rest, so they have no
+// derivative.
 TEST_P(PressureTangent, NoneInLinearElasticity)
 {
   UnderPressure body(GetParam(), "z-max: 1", "linear");

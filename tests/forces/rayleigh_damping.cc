@@ -48,7 +48,7 @@ namespace
   }
 } // namespace
 
-// The coefficients have the ratios, by the definition of these.
+// The coefficients give the damping ratios, by the definition of these.
 TEST(RayleighDamping, HasTheRatiosAsked)
 {
   const DampingCoefficients c = damping("2, 5", "0.02, 0.03").coefficients();
@@ -61,8 +61,8 @@ TEST(RayleighDamping, HasTheRatiosAsked)
   EXPECT_GT(ratio(6), 0.03);
 }
 
-// At the limits one coefficient is zero, not a tiny negative number, although
-// 0.1 and 0.3 have no exact binary representation.
+// At the limits of allowed ratios one coefficient is exactly zero, not a tiny
+// negative number, although 0.1 and 0.3 have no exact binary representation.
 TEST(RayleighDamping, LimitsAreAllowed)
 {
   DampingCoefficients c = damping("0.1, 0.3", "0.01, 0.03").coefficients();

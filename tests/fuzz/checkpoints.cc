@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Checkpoints: the bytes of the .json file, a zero byte, and those of the .h5
-// file. They are read as they are, and, so that more than the checksums is
-// tried, with checksums that are right.
+// Checkpoints: an input has the bytes of the .json file, a zero byte, and the
+// bytes of the .h5 file. They are read as they are, and again with correct
+// checksums, so that more than the checksums is tested.
 
 #include <corotet/base/log.h>
 #include <corotet/output/checkpoint_checksum.h>
@@ -46,7 +46,7 @@ namespace fuzz
       corotet::FileOrder      order;
     };
 
-    // All kinds of values.
+    // Reads values of all kinds.
     void
     read_all(const std::string &path, const OneCell &body)
     {
@@ -71,15 +71,15 @@ namespace fuzz
       reader->within("state", [&] { read("v", corotet::Vector()); });
       corotet::VtkhdfSeries series(scratch() / "", "solution", 0., 50);
       is_accepted([&] { series.transfer(*reader); });
-      // As a restart compares them with those of the new run.
+      // A restart compares these values with those of the new run.
       for (const auto &[section, entries] : reader->parameters().items())
         for (const auto &[name, value] : entries.items())
           if (value.is_string())
             value.get<std::string>();
     }
 
-    // The text of a .json file whose checksums fit; as it is where that cannot
-    // be said.
+    // The text of a .json file with correct checksums; unchanged where the text
+    // does not allow them.
     std::string
     with_checksums(const std::string &text, const std::string &vectors)
     {
@@ -105,7 +105,7 @@ namespace fuzz
         }
       catch (const Json::exception &)
         {
-          // Not UTF-8.
+          // The text is not UTF-8.
           return text;
         }
     }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A function of deal.II whose name clang and GCC, which has compiled deal.II,
-// spell differently: the size of what it returns depends on an argument of the
-// template.
+// A function of deal.II whose mangled name differs between clang and GCC, which
+// has compiled deal.II: the size of its result depends on a template argument.
 
 #include <deal.II/base/symmetric_tensor.templates.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Formulas, tables and the lists that entries of parameter files are.
+// Formulas, tables and lists in entries of parameter files.
 
 #include <corotet/base/differentiation.h>
 #include <corotet/base/expression.h>
@@ -24,14 +24,14 @@ namespace fuzz
   {
     using corotet::Expression;
 
-    // Bit by bit, but for the kind of what is not a number.
+    // Whether both numbers are equal or neither is a number.
     bool
     are_equal(const double a, const double b)
     {
       return a == b || (std::isnan(a) && std::isnan(b));
     }
 
-    // That it depends on what it says, and on nothing else.
+    // Checks that an expression depends on what it says, and on nothing else.
     void
     check_values(const Expression &expression, const unsigned int component)
     {
@@ -51,7 +51,8 @@ namespace fuzz
         expression.time_derivatives(p, t, 1e-3, component);
     }
 
-    // A table's values stay between those of its rows.
+    // Checks that a table's values between two rows lie between those of the
+    // rows.
     void
     check_between(const corotet::TableFunction &function,
                   const corotet::TableRows     &rows,

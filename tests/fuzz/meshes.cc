@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What reads mesh files, or looks at them before gmsh does, and what takes from
-// gmsh's process the bytes that it hands back: whatever the file did to that
+// Readers of mesh files, checks of files before gmsh reads them, and the reader
+// of the bytes that gmsh's process hands back, whatever the file did to that
 // process.
 
 #include <corotet/base/log.h>
@@ -39,7 +39,8 @@ namespace fuzz
       });
     }
 
-    // A mesh that one of our readers gives, if it does not refuse the file.
+    // Uses the mesh that a reader of corotet gives, if it does not refuse the
+    // file.
     template <typename Read>
     void
     use_model(const std::string &path, const Read &read)
@@ -51,7 +52,7 @@ namespace fuzz
     }
   } // namespace
 
-  // gmsh reads those of version 4.
+  // Reads a .msh file of version 2; gmsh reads those of version 4.
   void
   read_mesh_file(const std::string &input)
   {
@@ -81,8 +82,8 @@ namespace fuzz
     use_model(write("part.unv", input), corotet::read_unv);
   }
 
-  // Behind a line "//====" is a second file, part.geo, which the first may
-  // include.
+  // Checks a geometry. Behind a line "//====" there is a second file, part.geo,
+  // which the first may include.
   void
   read_geometry(const std::string &input)
   {
@@ -94,8 +95,8 @@ namespace fuzz
     is_accepted([&] { corotet::check_geo(path); });
   }
 
-  // A mesh that has been accepted can be used. The first byte says whether it
-  // was made of a geometry, and for which elements it is to be.
+  // A mesh that is accepted must be usable. The first byte says whether the
+  // mesh comes from a geometry, and for which elements it is to be used.
   void
   read_gmsh_model(const std::string &input)
   {
@@ -125,7 +126,7 @@ namespace fuzz
       use(mesh, 0, 2);
   }
 
-  // A mesh of our own, as one rank reads it whole.
+  // Reads a mesh file of corotet as one rank reads it as a whole.
   void
   read_hdf5_file(const std::string &input)
   {
@@ -135,8 +136,8 @@ namespace fuzz
       use(mesh, 0, 2);
   }
 
-  // A closed surface that has been accepted has two triangles at each edge, and
-  // all of it belongs to bodies. What is no other file is a binary STL file.
+  // An accepted closed surface must have two triangles at each edge, and all of
+  // it must belong to bodies. Files of no other format are read as binary STL.
   void
   read_surface(const std::string &input)
   {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Parameter files in all their forms, read as the program does: what is
+// Parameter files in all formats, read as the program reads them: what is
 // accepted can be written and read again with the same values.
 
 #include <corotet/base/parameter_file.h>
@@ -17,7 +17,7 @@ namespace fuzz
   {
     using Json = nlohmann::ordered_json;
 
-    // The form that a file has, by its first character.
+    // The extension of a file's format, which its first character tells.
     std::string
     ending_of(const std::string &input)
     {
@@ -28,7 +28,7 @@ namespace fuzz
       return c == '<' ? ".xml" : ".prm";
     }
 
-    // All that follows from the entries without a mesh.
+    // Uses all entries that need no mesh.
     void
     use(const corotet::RunParameters &parameters, const std::string &path)
     {
@@ -39,8 +39,8 @@ namespace fuzz
       parameters.output.directory_of_run(path);
     }
 
-    // Names of files become relative to another folder, and are written in
-    // another way.
+    // All values but names of files, which become relative to another folder
+    // and so are written differently.
     Json
     values_but_files(const corotet::ParameterFile &file)
     {
@@ -56,7 +56,8 @@ namespace fuzz
   {
     static const std::string part = write("part.prm", "set Type = modes\n");
     const std::string        path = write("case" + ending_of(input), input);
-    // All entries are declared for those only that are well formed.
+    // Only well formed files are read into declared entries, which takes
+    // longer.
     if (!is_accepted([&] { corotet::read_parameter_statements(path); }))
       return;
     corotet::RunParameters parameters;
@@ -67,7 +68,7 @@ namespace fuzz
     use(parameters, path);
 
     const std::string written = scratch() / "written.prm";
-    // Some names of files could not be read again.
+    // Some names of files could not be read again, so they are refused here.
     if (!is_accepted([&] { file.write_effective(written); }))
       return;
     corotet::RunParameters parameters_again;

@@ -33,11 +33,12 @@ namespace
 {
   constexpr unsigned int max_seconds = 10;
 
-  // What is running now, for the handler of signals.
+  // The current input and its name, for the handler of signals.
   std::string input;
   std::string name;
 
-  // Keeps the input that has failed, by what a handler of signals may call.
+  // Keeps the input that has failed, using only functions that a handler of
+  // signals may call.
   void
   keep_input(const char *reason)
   {
@@ -61,7 +62,7 @@ namespace
     _exit(1);
   }
 
-  // Also where the stack is at its end.
+  // Signals are caught also where the stack is exhausted.
   void
   catch_signals()
   {
@@ -77,7 +78,7 @@ namespace
       sigaction(signal, &action, nullptr);
   }
 
-  // Memory that is private and can be written: what RLIMIT_DATA counts.
+  // The private writable memory, which RLIMIT_DATA counts.
   [[maybe_unused]] std::uint64_t
   data_size()
   {
@@ -88,7 +89,7 @@ namespace
     return pages[5] * sysconf(_SC_PAGESIZE);
   }
 
-  // Sanitizers take memory of their own.
+  // Limits the memory; not with sanitizers, which take memory of their own.
   void
   limit_memory([[maybe_unused]] const std::size_t size)
   {
@@ -126,7 +127,7 @@ namespace
     return false;
   }
 
-  // One to eight bytes or pieces are changed.
+  // One of the inputs with one to eight changes of bytes or pieces.
   std::string
   mutated(const std::vector<std::string> &inputs, std::mt19937 &random)
   {
@@ -167,13 +168,13 @@ namespace
     return bytes;
   }
 
-  // Until the time is over, or one fails.
+  // Runs mutations until the time is over or one fails.
   bool
   mutate(const std::vector<std::string> &inputs, const double seconds)
   {
     using Clock      = std::chrono::steady_clock;
     const auto start = Clock::now();
-    // Always the same, so that a failure can be repeated.
+    // The mutations are always the same, so that a failure can be repeated.
     std::mt19937 random(1);
     std::size_t  n = 0;
     while (std::chrono::duration<double>(Clock::now() - start).count() <

@@ -2,8 +2,8 @@
 // Copyright (C) 2026 by the corotet authors
 
 // The list of targets, and libFuzzer's way to call them
-// (https://llvm.org/docs/LibFuzzer.html): the variable COROTET_FUZZ_TARGET
-// names the one.
+// (https://llvm.org/docs/LibFuzzer.html). The variable COROTET_FUZZ_TARGET
+// names the target to run.
 
 #include "targets.h"
 
@@ -40,7 +40,7 @@ namespace fuzz
   void
   initialize()
   {
-    // Without shared memory, which would stay behind after a crash.
+    // Shared memory is not used, as it would stay behind after a crash.
     setenv("OMPI_MCA_btl", "self", 0);
     static char                                     name[]  = "fuzz_targets";
     static char                                    *words[] = {name, nullptr};

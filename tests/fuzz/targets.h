@@ -16,16 +16,16 @@
 #include "temporary_folder.h"
 
 /**
- * What reads files of others, as functions of bytes that may be anything. Each
- * may refuse them by the errors that a user is told; whatever else happens (a
- * crash, another exception, a broken promise, too much memory or time) is a
- * finding.
+ * The readers of files from outside, as functions of arbitrary bytes. Each may
+ * refuse its input by throwing an error for users; anything else that goes
+ * wrong (a crash, another exception, a broken promise, too much memory or time)
+ * is a finding.
  */
 namespace fuzz
 {
   using Target = void (*)(const std::string &input);
 
-  /// By name.
+  /// All targets, by their names.
   const std::map<std::string, Target> &
   targets();
 
@@ -62,7 +62,7 @@ namespace fuzz
   void
   read_unv_file(const std::string &input);
 
-  /// Whether @p action comes to its end without refusing its input.
+  /// Whether @p action ends without refusing its input.
   template <typename Action>
   bool
   is_accepted(const Action &action)
@@ -78,7 +78,8 @@ namespace fuzz
       }
   }
 
-  /// What must be so, whatever the input is.
+  /// Ends the process if @p is_so is false: a promise that must hold for any
+  /// input is broken.
   inline void
   require(const bool is_so, const std::string &what)
   {
@@ -88,7 +89,7 @@ namespace fuzz
     std::abort();
   }
 
-  /// A folder of this process.
+  /// A temporary folder of this process.
   inline const TemporaryFolder &
   scratch()
   {

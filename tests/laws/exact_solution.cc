@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Data made from an exact displacement. The body force is compared with
-// differences of the stress, which is that of other tests' material functions.
+// Body forces from an exact displacement, compared with differences of the
+// stress; other tests check the stress.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/laws/linear.h>
@@ -21,7 +21,8 @@ using dealii::Tensor;
 
 namespace
 {
-  // Turned by about 90 degrees, and stretched and sheared by some ten percent.
+  // A displacement that rotates by about 90 degrees, and stretches and shears
+  // by some ten percent.
   const std::string text = "-x - y - t^2*0.2*sin(3*x+y)*cos(z); x - y + "
                            "t^2*0.15*cos(2*y-x+z); t^3*0.1*sin(2*x+y)*exp(z)";
 
@@ -29,8 +30,9 @@ namespace
   const Point<3>          x(0.2, 0.4, 0.3);
   const double            t = 0.8;
 
-  // By central differences of fourth order: their error is some h^4 = 1e-12
-  // times derivatives of the size 100, round-off 1e-15 / h.
+  // The divergence of the stress by central differences of fourth order: their
+  // error is about h^4 = 1e-12 times derivatives of size 100, and their
+  // round-off 1e-15 / h.
   Tensor<1, 3>
   divergence_by_differences(const ExactSolution &solution,
                             const MaterialLaw   &law)
@@ -100,7 +102,8 @@ TEST(ExactSolution, RigidMotion)
     "x*(cos(t)-1) - y*sin(t); x*sin(t) + y*(cos(t)-1); 1");
   for (const NamedLaw &law : nonlinear_laws())
     {
-      // Some ten roundings of F, 1e-16 each, times moduli of some 10 Pa.
+      // The tolerance is some ten roundings of F, 1e-16 each, times moduli of
+      // some 10 Pa.
       EXPECT_LT(solution.stress(material, *law.law, x, t).norm(), 1e-14);
       EXPECT_LT(solution.body_force(material, *law.law, false, x, t).norm(),
                 1e-13);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What holds for every law of the registry at a point.
+// Properties that every registered law must have at a point.
 
 #include <corotet/laws/neo_hookean.h>
 #include <corotet/material/polar_decomposition.h>
@@ -24,7 +24,8 @@ namespace
   const IsotropicMaterial soft = isotropic_material(10., 0.3, 1.);
   const Tensor<2, 3>      unit(dealii::unit_symmetric_tensor<3>());
 
-  // Turned by some 100 degrees, stretched by 40 and -30 percent and sheared.
+  // A displacement gradient that rotates by some 100 degrees, stretches by 40
+  // and -30 percent and shears.
   const Tensor<2, 3> large =
     rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.8) *
       Tensor<2, 3>({{1.4, 0.2, -0.1}, {0.1, 0.7, 0.3}, {0., 0.2, 1.1}}) -
@@ -34,7 +35,8 @@ namespace
     large,
     Tensor<2, 3>({{0.1, 0.02, 0.}, {-0.05, 0., 0.1}, {0.02, -0.03, -0.2}})};
 
-  // Fourth order: an error of h^4 = 1e-12 times derivatives of the size 10.
+  // The step of differences of fourth order: their error is h^4 = 1e-12 times
+  // derivatives of size 10.
   constexpr double h = 1e-3;
 
   template <typename Value>
@@ -94,8 +96,8 @@ TEST_P(Laws, StressDerivative)
         }
 }
 
-// What runs look at: by central differences of second order with 1e-5, whose
-// errors are those of the square of that and round-off over it.
+// Runs check laws by central differences of second order with a step of 1e-5;
+// the tolerance is its square plus the round-off over the step.
 TEST_P(Laws, HaveNoErrors)
 {
   for (const Tensor<2, 3> &H : {gradients[1], gradients[2]})
@@ -106,7 +108,7 @@ TEST_P(Laws, HaveNoErrors)
     }
 }
 
-// At rest all laws are linear elasticity.
+// At rest all laws agree with linear elasticity.
 TEST_P(Laws, AtRest)
 {
   EXPECT_EQ(law.energy_density(soft, Tensor<2, 3>()), 0);
@@ -123,9 +125,9 @@ TEST_P(Laws, AtRest)
       }
 }
 
-// Small strains keep their digits: what differs from linear elasticity is of
-// second order, 1e-9 of the stress. Laws with rotations know strains to the
-// rounding of F only.
+// Small strains keep their digits: the stress differs from that of linear
+// elasticity by second order only, 1e-9 of it. Laws with rotations know strains
+// to the rounding of F only.
 TEST_P(Laws, SmallStrain)
 {
   const double       size = 1e-9;
@@ -140,9 +142,9 @@ TEST_P(Laws, SmallStrain)
   EXPECT_NEAR(law.energy_density(soft, H), energy, 2 * tolerance * energy);
 }
 
-// The stress of a body that is turned is turned with it, and F P^T is
-// symmetric: no torque is left. The law is isotropic: a body that is cut in
-// another direction behaves alike. Not so with linear elasticity.
+// Rotating the body rotates its stress, and F P^T is symmetric, so there is no
+// torque. The law is isotropic: a body cut in another direction behaves alike.
+// Linear elasticity is an exception.
 TEST_P(Laws, Objectivity)
 {
   const Tensor<2, 3> Q       = rotation_about(Tensor<1, 3>({1., 2., 3.}), 2.1);
@@ -162,19 +164,19 @@ TEST_P(Laws, Objectivity)
           EXPECT_NEAR(law.energy_density(soft, Q * F - unit),
                       law.energy_density(soft, H),
                       1e-14 * 10);
-          // A rotation has no energy, to the square of the strain's round-off.
+          // The energy of a rotation is the square of the round-off of strains.
           EXPECT_LE(std::abs(law.energy_density(soft, Q - unit)), 1e-28);
         }
     }
   if (law.is_linear())
     EXPECT_GE(largest, 1.);
   else
-    // Some ten operations on numbers up to 20.
+    // The tolerance is that of some ten operations on numbers up to 20.
     EXPECT_LE(largest, 2e-14 * 10) << named.name;
 }
 
-// The stress that is shown: Cauchy's; of corotational elasticity but for terms
-// of the order of the strain, here 1e-3.
+// The stress in results is the Cauchy stress; for corotational elasticity up to
+// terms of the order of the strain, here 1e-3.
 TEST_P(Laws, SpatialStress)
 {
   const Tensor<2, 3> R = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 1.8);
@@ -182,7 +184,7 @@ TEST_P(Laws, SpatialStress)
     unit +
     1e-3 * Tensor<2, 3>({{1., 0.3, 0.}, {0.3, -0.4, 0.1}, {0., 0.1, 0.3}});
   const Tensor<2, 3> F = law.is_linear() ? S : R * S;
-  // More than there are lanes, all different from the first.
+  // More gradients than there are lanes; one differs from the first.
   std::vector<Tensor<2, 3>>          H(11, F - unit);
   std::vector<SymmetricTensor<2, 3>> sigma(H.size());
   H[3] *= 0.5;
@@ -209,7 +211,7 @@ INSTANTIATE_TEST_SUITE_P(All,
                            return name;
                          });
 
-// Nothing is flat or inside out.
+// Flat and inverted states have infinite energy.
 TEST(NeoHookean, HasNoStateInsideOut)
 {
   const auto law = neo_hookean_law();
@@ -221,19 +223,19 @@ TEST(NeoHookean, HasNoStateInsideOut)
                 std::numeric_limits<double>::infinity());
       EXPECT_FALSE(std::isfinite(law->stress(soft, H)[2][2]));
     }
-  // And what is nearly so has as much energy as it should: uniaxial,
-  // mu / 2 (s^2 - 1) - mu ln s + lambda / 2 (ln s)^2.
+  // A nearly flat state has the energy of the formula for uniaxial strain, mu /
+  // 2 (s^2 - 1) - mu ln s + lambda / 2 (ln s)^2.
   Tensor<2, 3> H;
   const double s = 1e-6, ln = std::log(s);
   H[0][0] = s - 1;
   EXPECT_NEAR(law->energy_density(soft, H),
               soft.mu / 2 * (s * s - 1) - soft.mu * ln +
                 soft.lambda / 2 * ln * ln,
-              // s is known to 1e-16 / 1e-6 of itself.
+              // The round-off of s is 1e-16 / 1e-6 of it.
               1e-9 * soft.lambda * 100);
 }
 
-// Between the two ways to compute ln J there is no step.
+// ln J is computed in two ways, and the energy has no jump between them.
 TEST(NeoHookean, EnergyIsAsAccurateAsTheStrain)
 {
   const auto law = neo_hookean_law();
@@ -243,12 +245,13 @@ TEST(NeoHookean, EnergyIsAsAccurateAsTheStrain)
         const double e = sign * std::min(size, sign > 0 ? 2. : 0.9);
         Tensor<2, 3> H;
         H[1][1] = e;
-        // In long double, whose 19 digits leave enough of what cancels.
+        // The reference is in long double, whose 19 digits leave enough after
+        // cancellation.
         const long double x = e, ln = std::log1p(x);
         const long double energy =
           soft.mu * (0.5L * x * x + (x - ln)) + 0.5L * soft.lambda * ln * ln;
-        // Cancellation of x - ln(1 + x) in long double: 1e-19 / x; in double
-        // by a factor of 20 where it is not by a series.
+        // Cancellation in x - ln(1 + x): 1e-19 / x in long double; in double it
+        // costs a factor of 20 where no series is used.
         EXPECT_NEAR(law->energy_density(soft, H),
                     double(energy),
                     (1e-14 + 2e-19 / size) * double(energy))

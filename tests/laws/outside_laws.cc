@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A law of the test's own, written at a point and registered from outside: what
-// the library has of the same law, the number of digits of which it must have.
+// A law that the test itself writes at a point and registers from outside: it
+// must agree with the library's own law of that kind, to as many digits.
 
 #include <corotet/laws/law_kind.h>
 #include <corotet/operators/elasticity.h>
@@ -18,7 +18,7 @@ using dealii::Tensor;
 
 namespace
 {
-  // P = F (lambda tr(E) I + 2 mu E).
+  // The Saint Venant-Kirchhoff law, P = F (lambda tr(E) I + 2 mu E).
   class MyKirchhoff : public PointLaw
   {
   public:
@@ -69,8 +69,8 @@ namespace
   };
 } // namespace
 
-// Laws that are not those of linear elasticity at rest, or have a stress there,
-// are refused before a run.
+// Laws that differ from linear elasticity at rest, or have a stress there, are
+// refused before a run.
 TEST(OutsideLaws, AreCheckedAtRest)
 {
   class Wrong : public MyKirchhoff
@@ -126,7 +126,8 @@ TEST(OutsideLaws, AreCheckedAtRest)
             std::string::npos);
 }
 
-// Members that contradict each other are found.
+// The check of laws finds stresses, energies and derivatives that contradict
+// each other.
 TEST(OutsideLaws, ErrorsOfALaw)
 {
   class Wrong : public MyKirchhoff
@@ -165,7 +166,7 @@ TEST(OutsideLaws, ErrorsOfALaw)
   EXPECT_NEAR(derivative.stress_derivative, 0.5, 1e-8);
 }
 
-// So is a candidate that makes no law.
+// A candidate that makes no law is refused, too.
 TEST(OutsideLaws, NoLaw)
 {
   const AddedCandidate<LawKind> added(
@@ -181,7 +182,7 @@ TEST(OutsideLaws, IsLikeTheLibrarysOwn)
   }));
   for (const unsigned int degree : {1, 2, 3})
     {
-      // The entry Type knows it.
+      // The entry Type has the name of the law as a choice.
       const std::string text = element_text(degree) + material_text(1e3);
       const SerialMesh  mesh = box("1, 2, 1", "2, 2, 2", 0.2);
       MovingBody        mine(mesh, text + material_type("my Kirchhoff"));
@@ -191,7 +192,7 @@ TEST(OutsideLaws, IsLikeTheLibrarysOwn)
       const Vector u = displacement(mine, states[2], 1.5, 3),
                    v = random_direction(mine);
       const Vector f = force(b, u);
-      // Sums of some hundred products.
+      // The round-off of sums of some hundred products.
       EXPECT_LE(largest_difference(force(a, u), f), 1e-13 * f.linfty_norm());
       EXPECT_NEAR(a.state(u).energy,
                   b.state(u).energy,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Hyperelastic laws against what GiNaC derives from their energies as they
-// stand in books: stress, its derivative, and the body force of an exact
+// Hyperelastic laws compared with what GiNaC derives from their textbook
+// energies: the stress, its derivative, and the body force of an exact
 // solution.
 
 #include <corotet/laws/neo_hookean.h>
@@ -39,7 +39,7 @@ namespace
            F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
   }
 
-  // F^T F.
+  // The right Cauchy-Green tensor F^T F.
   Matrix
   cauchy_green(const Matrix &F)
   {
@@ -109,7 +109,7 @@ TEST(SymbolicLaws, StressAndItsDerivative)
   for (const auto &[name, law, energy] : laws)
     {
       const GiNaC::ex W = energy(F);
-      // Some ten operations on numbers up to 30.
+      // The tolerance is that of some ten operations on numbers up to 30.
       EXPECT_NEAR(law->energy_density(material_of_laws, H),
                   number(W.subs(values)),
                   1e-14)
@@ -136,7 +136,8 @@ TEST(SymbolicLaws, StressAndItsDerivative)
     }
 }
 
-// b = -Div P of a displacement that turns, stretches and shears.
+// The body force is -Div P, for a displacement that rotates, stretches and
+// shears.
 TEST(SymbolicLaws, BodyForce)
 {
   const GiNaC::symbol x("x"), y("y"), z("z");
@@ -169,7 +170,8 @@ TEST(SymbolicLaws, BodyForce)
           for (unsigned int c = 0; c < 3; ++c)
             divergence +=
               W.diff(symbols[a][c]).subs(gradient).diff(coordinates[c]);
-          // Some hundred operations on numbers up to 100.
+          // The tolerance is that of some hundred operations on numbers up to
+          // 100.
           EXPECT_NEAR(b[a], -number(divergence.subs(point)), 1e-12) << name;
         }
     }

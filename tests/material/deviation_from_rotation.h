@@ -11,8 +11,8 @@
 
 namespace corotet::tests
 {
-  /// Largest deviation from R^T R = I and det R = 1; 1e300 for what is no
-  /// number.
+  /// The largest deviation from R^T R = I and det R = 1; 1e300 if an entry is
+  /// not a number.
   inline double
   deviation_from_rotation(const dealii::Tensor<2, 3> &R)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Isotropic elasticity against textbook relations, and what section Material
-// refuses.
+// Isotropic elasticity compared with textbook relations, and refusals of the
+// section Material.
 
 #include <corotet/laws/material_parameters.h>
 #include <corotet/material/corotational.h>
@@ -17,7 +17,7 @@ using namespace corotet::tests;
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
-// Uniaxial stress: strains E^-1 and -nu E^-1 times the stress.
+// Under a uniaxial stress s the strains are s / E and -nu s / E.
 TEST(Material, UniaxialStress)
 {
   const double            E = 210e9, nu = 0.3, sigma = 1e6;
@@ -27,7 +27,7 @@ TEST(Material, UniaxialStress)
   strain[1][1] = strain[2][2] = -nu * sigma / E;
   SymmetricTensor<2, 3> expected;
   expected[0][0] = sigma;
-  // Round-off of a few operations.
+  // The round-off of a few operations.
   EXPECT_LE((stress(material, strain) - expected).norm(), 1e-14 * sigma * 10);
   EXPECT_NEAR(von_mises(stress(material, strain)), sigma, 1e-14 * sigma * 10);
   EXPECT_NEAR(energy_density(material, strain),
@@ -35,7 +35,7 @@ TEST(Material, UniaxialStress)
               1e-14 * sigma * sigma / E * 10);
 }
 
-// Pure shear: von Mises stress sqrt(3) tau.
+// The von Mises stress of a pure shear tau is sqrt(3) tau.
 TEST(Material, VonMisesOfShear)
 {
   SymmetricTensor<2, 3> sigma;

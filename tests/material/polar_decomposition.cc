@@ -2,9 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 // The rotation of the polar decomposition must be a rotation for every matrix,
-// and the one of the singular value decomposition where that is unique. The
-// reference is Eigen's Jacobi SVD in extended precision: another algorithm on
-// the fast path, and more digits on the other.
+// and that of the singular value decomposition where it is unique. The
+// reference is Eigen's Jacobi SVD in extended precision: another algorithm than
+// the fast path, and more digits than the robust one.
 
 #include <corotet/material/polar_decomposition.h>
 
@@ -29,7 +29,8 @@ namespace
   struct Reference
   {
     Tensor<2, 3> rotation;
-    // (sigma_2 + sign(det F) sigma_3) / sigma_1: zero where R is not unique.
+    // This is (sigma_2 + sign(det F) sigma_3) / sigma_1: zero where R is not
+    // unique.
     double uniqueness;
   };
 
@@ -68,7 +69,7 @@ namespace
     return F;
   }
 
-  // U diag(s) V^T with random rotations U, V.
+  // A matrix U diag(s) V^T with random rotations U and V.
   Tensor<2, 3>
   with_singular_values(const dealii::Tensor<1, 3> &s,
                        std::mt19937_64            &generator)
@@ -81,7 +82,7 @@ namespace
     return U * V;
   }
 
-  // Round-off of R is the machine precision over the uniqueness.
+  // The round-off of R is the machine precision over the uniqueness.
   void
   expect_reference(const Tensor<2, 3> &F, const double uniqueness_required)
   {
@@ -95,8 +96,8 @@ namespace
   }
 } // namespace
 
-// Standard normal entries: about half of them are inverted. Debug mode checks
-// a tenth of them, for its speed.
+// Entries are normally distributed: about half of the matrices are inverted. In
+// debug mode, which is slow, a tenth of them is checked.
 TEST(PolarDecomposition, MillionRandomMatrices)
 {
 #ifdef DEBUG
@@ -119,7 +120,8 @@ TEST(PolarDecomposition, NearlySingularAndInverted)
           expect_reference(with_singular_values(
                              Tensor<1, 3>({1.5, 0.7, sign * small}), generator),
                            1e-3);
-          // Rank 1 and nearly: R is not unique, but must be a rotation.
+          // Matrices of rank 1, exactly or nearly: R is not unique, but must be
+          // a rotation.
           expect_reference(with_singular_values(Tensor<1, 3>(
                                                   {1., small, sign * small}),
                                                 generator),
@@ -127,8 +129,8 @@ TEST(PolarDecomposition, NearlySingularAndInverted)
         }
 }
 
-// Singular values that differ by 1e-17, the inverted ones among them, where the
-// reflection's choice of direction is a toss.
+// Singular values that differ by 1e-17; for inverted matrices the direction of
+// the reflection is then arbitrary.
 TEST(PolarDecomposition, NearlyEqualSingularValues)
 {
   std::mt19937_64 generator(3);
@@ -151,7 +153,7 @@ TEST(PolarDecomposition, CollapsedToPlaneLineAndPoint)
   std::mt19937_64 generator(4);
   for (unsigned int i = 0; i < 1000; ++i)
     {
-      // Exactly rank 2: the third row is zero; its R is unique.
+      // A matrix of rank 2, exactly: the third row is zero. Its R is unique.
       Tensor<2, 3> plane = random_matrix(generator);
       plane[2]           = 0;
       expect_reference(plane, 1e-2);
@@ -178,7 +180,7 @@ TEST(PolarDecomposition, AnyScale)
                   polar_decomposition(F).rotation);
       for (const double scale : {1e-300, 1e300})
         expect_reference(F * scale, 1e-3);
-      // Denormal numbers have fewer digits, but a rotation comes out.
+      // Denormal numbers have fewer digits, but the result is a rotation.
       expect_reference(F * 1e-310, 2.);
     }
 }
@@ -189,7 +191,7 @@ TEST(PolarDecomposition, KnowsTheState)
   EXPECT_EQ(polar_decomposition(F).state, PolarState::regular);
   F[2][2] = -0.5;
   EXPECT_EQ(polar_decomposition(F).state, PolarState::inverted);
-  // The direction of the smallest singular value is turned back.
+  // The direction of the smallest singular value is reflected back.
   EXPECT_LE((polar_decomposition(F).rotation -
              Tensor<2, 3>(dealii::unit_symmetric_tensor<3>()))
               .norm(),

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The rotations of several F at once must be those of the scalar function, to
-// round-off where the fast path took them and exactly elsewhere, whatever mix
-// of good and bad F the lanes hold. The scalar function has its own test
-// against extended precision.
+// Rotations of several F at once must be those of the scalar function, to
+// round-off where the fast path computes them and exactly elsewhere, whatever
+// mix of regular and irregular F the lanes hold. Another test compares the
+// scalar function with extended precision.
 
 #include <corotet/base/simd.h>
 #include <corotet/material/polar_decomposition.h>
@@ -30,7 +30,7 @@ namespace
 
   constexpr int n_matrices = n_lanes<double>;
 
-  // One F per lane, and what becomes of it.
+  // One F per lane, and its decomposition.
   struct Batch
   {
     Simd<double> F[3][3], R[3][3];
@@ -100,7 +100,7 @@ namespace
       return std::uniform_real_distribution<double>(from, to)(generator);
     }
 
-    // Of a random unit quaternion.
+    // The rotation of a random unit quaternion.
     Tensor<2, 3>
     rotation()
     {
@@ -122,7 +122,7 @@ namespace
       return R;
     }
 
-    // U diag(s) V^T with random rotations U, V.
+    // A matrix U diag(s) V^T with random rotations U and V.
     Tensor<2, 3>
     with_singular_values(const double s0, const double s1, const double s2)
     {
@@ -133,7 +133,8 @@ namespace
       return rotation() * V;
     }
 
-    // Singular values between lowest and highest, evenly in their logarithm.
+    // A matrix with singular values between @p lowest and @p highest, evenly
+    // distributed in their logarithm.
     Tensor<2, 3>
     stretched(const double lowest, const double highest)
     {
@@ -143,7 +144,7 @@ namespace
                                   std::exp(uniform(a, b)));
     }
 
-    // Any sort of F: two thirds of them ordinary.
+    // A matrix F of any sort; two thirds of them are ordinary.
     Tensor<2, 3>
     any()
     {
@@ -190,7 +191,7 @@ namespace
     std::normal_distribution<double> normal;
   };
 
-  // Returns how many lanes the fast path took.
+  // Compares all lanes, and returns for how many the fast path was taken.
   unsigned int
   expect_scalar_result(const Batch &batch)
   {
@@ -217,7 +218,7 @@ namespace
   }
 
 #ifdef DEBUG
-  // Debug mode checks a tenth of them, for its speed.
+  // Debug mode is slow, so it checks a tenth of them.
   constexpr unsigned int n_batches = 100000 / n_matrices;
 #else
   constexpr unsigned int n_batches = 1000000 / n_matrices;
@@ -236,11 +237,12 @@ TEST(PolarDecompositionSimd, MillionMatricesOfAllSorts)
       batch.decompose();
       n_fast += expect_scalar_result(batch);
     }
-  // Not all went to the scalar function.
+  // Most matrices do not need the scalar function.
   EXPECT_GT(n_fast, n_batches * n_matrices / 2);
 }
 
-// Condition numbers up to 100, where the fast path takes what is not too flat.
+// Condition numbers go up to 100: the fast path takes all but too flat
+// matrices.
 TEST(PolarDecompositionSimd, LargeStretches)
 {
   Matrices matrices(2);
@@ -254,7 +256,7 @@ TEST(PolarDecompositionSimd, LargeStretches)
     }
 }
 
-// Ordinary F of any ordinary scale never leave the fast path.
+// Ordinary F of any ordinary scale always take the fast path.
 TEST(PolarDecompositionSimd, OrdinaryStretchesTakeTheFastPath)
 {
   Matrices matrices(3);
@@ -270,8 +272,9 @@ TEST(PolarDecompositionSimd, OrdinaryStretchesTakeTheFastPath)
         }
 }
 
-// Bit by bit, at every lane: the others are replaced by F of other sorts, which
-// need more steps, no steps or the scalar function.
+// The result of a lane is the same to the last bit whatever is in the other
+// lanes: F of other sorts, which need more steps, no steps or the scalar
+// function.
 TEST(PolarDecompositionSimd, NeighboursDoNotMatter)
 {
   Matrices matrices(4);

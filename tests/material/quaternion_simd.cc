@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A rotation that is kept as a quaternion comes back to round-off, whichever of
-// the four components is the largest.
+// A rotation that is stored as a quaternion is restored to round-off, whichever
+// of the four components is the largest.
 
 #include <corotet/material/quaternion_simd.h>
 
@@ -25,7 +25,7 @@ namespace
 
   constexpr int n_rotations = n_lanes<double>;
 
-  // Those that come back of the rotations in the lanes.
+  // The rotations after a conversion to quaternions and back.
   std::vector<Tensor<2, 3>>
   there_and_back(const std::vector<Tensor<2, 3>> &rotations)
   {
@@ -48,8 +48,9 @@ namespace
     const auto found = there_and_back(rotations);
     for (int lane = 0; lane < n_rotations; ++lane)
       {
-        // Products of two components, each of which is wrong by some four
-        // roundings of 2.2e-16; the determinant has three times that.
+        // Entries are products of two components, each with an error of some
+        // four roundings of 2.2e-16; the determinant has three times that
+        // error.
         EXPECT_LE((found[lane] - rotations[lane]).norm(), 3e-15)
           << rotations[lane];
         EXPECT_LE(tests::deviation_from_rotation(found[lane]), 3e-15)
@@ -71,14 +72,15 @@ TEST(QuaternionSimd, EveryAxisAndAngle)
         {
           Tensor<1, 3> axis{
             {normal(generator), normal(generator), normal(generator)}};
-          // Some about the axes of coordinates, where components are zero.
+          // Some rotations are about coordinate axes, where components are
+          // zero.
           if (generator() % 4 == 0)
             axis[generator() % 3] = 0;
           if (generator() % 4 == 0)
             axis[generator() % 3] = 0;
           if (axis.norm() == 0)
             axis[generator() % 3] = 1;
-          // Also tiny angles and half turns, exactly and nearly.
+          // Angles include tiny ones and half turns, exact and nearly.
           const unsigned int sort  = generator() % 8;
           double             angle = uniform(generator);
           if (sort < 2)

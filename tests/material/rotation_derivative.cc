@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The derivative of a rotation: against dense inverses, differences of the
-// polar decomposition, and where it is clamped.
+// The derivative of a rotation: compared with dense inverses and with
+// differences of polar decompositions, and where it is clamped.
 
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/material/rotation_derivative.h>
@@ -24,7 +24,7 @@ namespace
 
   constexpr int width = n_lanes<double>;
 
-  // A symmetric tensor per lane.
+  // A symmetric tensor in each lane, and its inverse operator.
   struct Stretches
   {
     Simd<double> S[6], inverse[6];
@@ -105,7 +105,7 @@ namespace
     return S;
   }
 
-  // tr(S) I - S.
+  // The matrix tr(S) I - S.
   Tensor<2, 3>
   spin(const Tensor<2, 3> &S)
   {
@@ -152,9 +152,9 @@ TEST(RotationDerivative, InverseOfOrdinaryStretches)
   EXPECT_LE(largest, 1e-13);
 }
 
-// Two stretches that nearly sum to zero, in one lane, any lane: that sum counts
-// as the smallest one allowed, the others as they are; other lanes do not
-// notice, bit by bit.
+// In one lane, two stretches nearly sum to zero: that sum is replaced by the
+// smallest one allowed, while other sums, and other lanes to the last bit, do
+// not change.
 TEST(RotationDerivative, ClampedWhereStretchesSumToZero)
 {
   Random random;
@@ -196,7 +196,7 @@ TEST(RotationDerivative, ClampedWhereStretchesSumToZero)
       }
 }
 
-// Sums just above the smallest one are not clamped, whichever way they take.
+// Sums just above the smallest one are not clamped, in either way to invert.
 TEST(RotationDerivative, NotClampedAboveThat)
 {
   for (const double sum : {0.011, 0.02, 0.1, 0.5})
@@ -212,7 +212,8 @@ TEST(RotationDerivative, NotClampedAboveThat)
     }
 }
 
-// A point has no stretches at all: all sums are clamped.
+// A cell that has collapsed to a point has zero stretches: all sums are
+// clamped.
 TEST(RotationDerivative, Collapsed)
 {
   Stretches stretches;
@@ -245,7 +246,7 @@ TEST(RotationDerivative, NotFinite)
 }
 
 // dR = R W(G^{-1} a(R^T dF)) with the functions that kernels use. Central
-// differences of fourth order with a step of 1e-3 are good to some 1e-11.
+// differences of fourth order with a step of 1e-3 have errors of some 1e-11.
 TEST(RotationDerivative, DifferencesOfPolarDecompositions)
 {
   Random random;
@@ -255,7 +256,7 @@ TEST(RotationDerivative, DifferencesOfPolarDecompositions)
       for (unsigned int k = 0; k < 200; ++k)
         {
           const Tensor<2, 3> U = random.rotation(), V = random.rotation();
-          // Sums of two stretches are 0.5 and more.
+          // All sums of two stretches are 0.5 or more.
           const Tensor<2, 3> F =
             U *
             diagonal(random(1.2, 2),
@@ -305,7 +306,7 @@ TEST(RotationDerivative, DifferencesOfPolarDecompositions)
     }
 }
 
-// Products with W(w) against dense ones.
+// Products with the skew matrix W(w) are compared with dense products.
 TEST(RotationDerivative, SkewProducts)
 {
   Random             random;

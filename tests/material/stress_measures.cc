@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Strain of a stress, and principal values.
+// The strain that belongs to a stress, and principal values.
 
 #include <corotet/material/stress_measures.h>
 
@@ -16,7 +16,8 @@ using namespace corotet::tests;
 using dealii::SymmetricTensor;
 using dealii::Tensor;
 
-// The inverse of the law, to round-off, which 1 / (1 - 2 nu) enlarges.
+// The strain is the inverse of the law, to round-off, which is enlarged by 1 /
+// (1 - 2 nu).
 TEST(StressMeasures, StrainOfStress)
 {
   SymmetricTensor<2, 3> strain;
@@ -40,8 +41,9 @@ TEST(StressMeasures, StrainOfStress)
     }
 }
 
-// Principal values do not depend on the axes, and their order is by value. To
-// round-off also where two or three are equal, as in uniaxial stress.
+// Principal values do not depend on the axes and are ordered by value. They are
+// accurate to round-off also where two or three are equal, as in uniaxial
+// stress.
 TEST(StressMeasures, PrincipalValues)
 {
   const Tensor<2, 3> R = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 0.7);

@@ -24,7 +24,7 @@ namespace corotet::tests
       return serial_mesh(read_abaqus_file(folder.write(name, text)));
     }
 
-    // Without the folder.
+    // The message of the refusal, without the folder.
     std::string
     message(const std::string &text) const
     {
@@ -36,7 +36,7 @@ namespace corotet::tests
     TemporaryFolder folder;
   };
 
-  // Two tetrahedra that share a face, with sparse numbers.
+  // Two tetrahedra that share a face, with numbers that leave gaps.
   inline const std::string nodes = "*Node\n"
                                    "  10, 0., 0., 0.\n"
                                    " 20, 1.D0, 0, 0\n"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Input files of Abaqus and CalculiX: what is read of them, and how those that
-// cannot be used are refused.
+// Input files of Abaqus and CalculiX: what is read from them, and the messages
+// where they cannot be used.
 
 #include <corotet/base/text.h>
 #include <corotet/mesh/check_mesh.h>
@@ -20,7 +20,7 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-// Sets by every way there is; they overlap.
+// Sets can be defined in several ways, and may overlap.
 TEST_F(AbaqusFile, SetsAndSurfaces)
 {
   SerialMesh mesh = read("*HEADING\nA body, of two cells\n" + nodes + cells +
@@ -39,14 +39,14 @@ TEST_F(AbaqusFile, SetsAndSurfaces)
   EXPECT_EQ(mesh.vertices.size(), 5u);
   EXPECT_EQ(known_regions(mesh),
             (Known{"Body", "Second One", "again", "both"}));
-  // Determinants over six: 1 and 2.
+  // The volumes are the determinants 1 and 2 over six.
   EXPECT_NEAR(volume(mesh, "Body"), 0.5, 1e-15);
   EXPECT_NEAR(volume(mesh, "Second One"), 1 / 3., 1e-15);
   EXPECT_NEAR(volume(mesh, "both"), 0.5, 1e-15);
   EXPECT_NEAR(volume(mesh, "again"), 0.5, 1e-15);
 
-  // Right triangles with legs of 1, and three of the other cell with edges of
-  // sqrt(2).
+  // The areas are those of right triangles with legs of 1, and of three faces
+  // of the other cell, with edges of sqrt(2).
   EXPECT_NEAR(area(mesh, "Floor"), 0.5, 1e-15);
   EXPECT_NEAR(area(mesh, "nodes"), 0.5, 1e-15);
   EXPECT_NEAR(area(mesh, "part of it"), 0.5 + std::sqrt(0.75), 1e-15);
@@ -54,20 +54,20 @@ TEST_F(AbaqusFile, SetsAndSurfaces)
   EXPECT_NEAR(area(mesh, "outside"), 1.5 + 1.5 * std::sqrt(3.), 1e-15);
   const std::string remarks = join(mesh.remarks, "\n");
   EXPECT_EQ(remarks.find("nodes of the set"), std::string::npos) << remarks;
-  // On no common edge.
+  // The two nodes of this set have no common edge, so they are corners.
   EXPECT_EQ(MeshNames("corner", mesh.corner_names).known(), Known{"two"});
   EXPECT_EQ(mesh.corners.size(), 2u);
   EXPECT_TRUE(mesh.edges.empty());
   EXPECT_NE(remarks.find("*ELASTIC, *MATERIAL"), std::string::npos);
 }
 
-// What no set has is known by a number, also in files that are written.
+// Cells of no set are known by a number, also in meshes that are written.
 TEST_F(AbaqusFile, TheRestHasANumber)
 {
   SerialMesh mesh = read(nodes + "*ELEMENT, type=C3D4\n7, 10, 20, 30, 40\n"
                                  "9, 20, 30, 40, 50\n*ELSET, ELSET=far\n9\n");
   check_mesh(mesh);
-  // As runs know it.
+  // Unnamed regions get their numbers as in a run.
   mesh.regions = UsedNames(mesh).regions;
   std::vector<SerialMesh> meshes{mesh};
   for (const char *const file : {"two.msh", "two.h5"})
@@ -77,7 +77,8 @@ TEST_F(AbaqusFile, TheRestHasANumber)
     }
   for (const SerialMesh &one : meshes)
     {
-      // gmsh has no group 0: its name comes back as one of others.
+      // gmsh has no group 0: "0" comes back as the name of another group, so
+      // the order of names may differ.
       Known known = known_regions(one);
       std::sort(known.begin(), known.end());
       EXPECT_EQ(known, (Known{"0", "far"}));
@@ -86,8 +87,9 @@ TEST_F(AbaqusFile, TheRestHasANumber)
     }
 }
 
-// Triangles and lines give their names; a file of ten nodes has curved cells
-// where its edges are bent, and its lines go on after a comma.
+// Elements that are triangles or lines name boundaries and edges. In a file
+// with elements of ten nodes, cells are curved where edges are bent; a line
+// that ends with a comma is continued.
 TEST_F(AbaqusFile, CurvedCellsAndTriangles)
 {
   const std::string text =
@@ -114,8 +116,8 @@ TEST_F(AbaqusFile, CurvedCellsAndTriangles)
   EXPECT_TRUE(mesh.remarks.empty());
 }
 
-// Four tetrahedra around an edge that is inside of the body: nodes at its ends
-// are corners of the surface, and the edge is not on it.
+// Four tetrahedra around an edge that is inside of the body: the nodes at its
+// ends are corners of the surface, but the edge is not on it.
 TEST_F(AbaqusFile, EdgeInsideOfTheBody)
 {
   const SerialMesh mesh =
@@ -142,7 +144,7 @@ TEST_F(AbaqusFile, NamesWithCommas)
   EXPECT_NEAR(volume(mesh, "5\" pipe"), 0.5, 1e-15);
 }
 
-// A set of the nodes of elements.
+// A set of nodes may be all nodes of a set of elements.
 TEST_F(AbaqusFile, NodesOfElements)
 {
   const std::string start =
@@ -151,16 +153,17 @@ TEST_F(AbaqusFile, NodesOfElements)
     "11, 20, 30, 40\n";
   const SerialMesh mesh = read(start + "*NSET, NSET=of one, ELSET=one\n"
                                        "*NSET, NSET=of side, ELSET=SIDE\n50\n");
-  // Three right triangles with legs of 1, and three faces of the other cell.
+  // The areas are those of three right triangles with legs of 1, and of three
+  // faces of the other cell.
   EXPECT_NEAR(area(mesh, "of one"), 1.5, 1e-14);
   EXPECT_NEAR(area(mesh, "of side"), 1.5 * std::sqrt(3.), 1e-14);
   EXPECT_EQ(message(start + "*NSET, NSET=a, ELSET=two\n"),
             "part.inp:15: there is no set of elements 'two' before this line");
 }
 
-// An edge whose ends are on faces of the set, but which is on none of these,
-// is in the set as well: here between the sides x = 0 and the triangle at z =
-// 0, and to a node that is alone.
+// An edge whose ends are in the set, but which belongs to none of the set's
+// faces, is in the set as well: here one between the side x = 0 and the
+// triangle at z = 0, and one to a single node.
 TEST_F(AbaqusFile, EdgesBetweenFacesOfASet)
 {
   const std::string text =
@@ -174,7 +177,7 @@ TEST_F(AbaqusFile, EdgesBetweenFacesOfASet)
                  "" :
                  fmt::format("{}, {}\n", number, fmt::join(of_element, ", "));
       });
-  // Of the side x = 0: 1, 4, 7, 10; of the side z = 0: 2, 3, 6.
+  // Nodes 1, 4, 7 and 10 are on the side x = 0; 2, 3 and 6 on the side z = 0.
   const SerialMesh both = read(text + "*NSET, NSET=s\n1, 4, 7, 10, 2, 3, 6\n");
   EXPECT_NEAR(area(both, "s"), 1.5, 1e-14);
   ASSERT_EQ(both.edges.size(), 1u);
@@ -184,7 +187,7 @@ TEST_F(AbaqusFile, EdgesBetweenFacesOfASet)
   EXPECT_TRUE(both.corners.empty());
   const SerialMesh one = read(text + "*NSET, NSET=s\n1, 4, 7, 10, 2\n");
   EXPECT_EQ(one.edges.size(), 1u);
-  // Whole faces have no edges besides.
+  // A set of whole faces has no further edges.
   EXPECT_TRUE(read(text + "*NSET, NSET=s\n1, 4, 7, 10\n").edges.empty());
 }
 
@@ -195,7 +198,7 @@ TEST_F(AbaqusFile, IncludedFiles)
   folder.write("sub/data.txt", "10,0,0,0\n20,1,0,0\n30,0,1,0\n40,0,0,1\n");
   EXPECT_EQ(read("*NODE, INPUT=sub/data.txt\n50,1,1,1\n" + cells).cells.size(),
             2u);
-  // Between a keyword and its data, and within these.
+  // A file can be included between a keyword and its data, and within the data.
   EXPECT_NEAR(area(read("*NODE, NSET=all\n*INCLUDE, INPUT=sub/data.txt\n"
                         "50,1,1,1\n" +
                         cells),
@@ -212,7 +215,8 @@ TEST_F(AbaqusFile, IncludedFiles)
             "part.inp:1: there is no such file: found 'none.inp'");
 }
 
-// Each wrong line by its number, and what is no tetrahedron with its count.
+// Messages name a wrong line by its number, and elements that are no tetrahedra
+// by their count.
 TEST_F(AbaqusFile, Refusals)
 {
   const std::pair<std::string, std::string> cases[] = {
@@ -285,8 +289,8 @@ TEST_F(AbaqusFile, Refusals)
             "1 with 10; one of these is allowed");
 }
 
-// Sets of sets that would double in each line, and files that are included
-// again and again, end before they fill the machine.
+// Sets whose size would double with each line, and files that are included
+// again and again, are refused before they exhaust the machine.
 TEST_F(AbaqusFile, Explosions)
 {
   std::string text = nodes + cells + "*NSET, NSET=a\n10, 20, 30, 40\n";

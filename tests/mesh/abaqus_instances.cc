@@ -11,7 +11,8 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-// Instances are moved and turned copies; sets of the assembly look into them.
+// Instances are moved and rotated copies of parts; sets of the assembly may
+// refer to their members.
 TEST_F(AbaqusFile, PartsAndInstances)
 {
   const SerialMesh mesh =
@@ -37,12 +38,13 @@ TEST_F(AbaqusFile, PartsAndInstances)
   EXPECT_NEAR(area(mesh, "face"), std::sqrt(0.75) + 0.5, 1e-14);
   EXPECT_NEAR(area(mesh, "other"), std::sqrt(0.75), 1e-14);
   EXPECT_NEAR(area(mesh, "two.foot"), 0.5, 1e-14);
-  // (1, 0, 0) goes to (10, 1, 0).
+  // The instance moves (1, 0, 0) to (10, 1, 0).
   EXPECT_LT(mesh.vertices[6].distance(dealii::Point<3>(10, 1, 0)), 1e-14);
 }
 
-// Nodes in the middle of straight edges, rounded to six digits: copies that are
-// moved and turned are straight, too. A node that is off by more curves all.
+// Nodes in the middle of straight edges, rounded to six digits: moved and
+// rotated copies are straight, too. If a node deviates by more, all cells are
+// curved.
 TEST_F(AbaqusFile, InstancesOfRoundedParts)
 {
   const std::vector<dealii::Point<3>> vertices{{0.123457, 0.345679, 0.567891},
@@ -82,8 +84,8 @@ TEST_F(AbaqusFile, InstancesOfRoundedParts)
   EXPECT_EQ(read(part(3e-5) + assembly).curved_nodes.size(), 20u);
 }
 
-// As Abaqus/CAE writes them: sets of nodes and of elements with one name, of
-// one instance. With two, they have its name, too.
+// As Abaqus/CAE writes it, a set of nodes and a set of elements have the same
+// name. With two instances, names begin with that of the instance.
 TEST_F(AbaqusFile, NamesOfInstances)
 {
   const std::string part = "*PART, NAME=block\n" + nodes + cells +
@@ -100,7 +102,8 @@ TEST_F(AbaqusFile, NamesOfInstances)
             (Known{"one.Body", "one.Set-1", "two.Body", "two.Set-1"}));
 }
 
-// A surface of one instance and a set of nodes of another one are boundaries.
+// A surface of one instance and a set of nodes of another one have the same
+// name; both are boundaries.
 TEST_F(AbaqusFile, OneNameInTwoInstances)
 {
   const std::string part = nodes + cells;
@@ -114,7 +117,8 @@ TEST_F(AbaqusFile, OneNameInTwoInstances)
   EXPECT_NEAR(area(mesh, "two.tip"), 0.5, 1e-15);
 }
 
-// "instance.member", also where a set of the assembly has a point in its name.
+// "instance.member" is a member of an instance, also where the assembly has a
+// set with that name.
 TEST_F(AbaqusFile, MembersOfInstances)
 {
   const std::string start =

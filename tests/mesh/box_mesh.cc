@@ -38,9 +38,9 @@ namespace
   }
 } // namespace
 
-// Five cells a cuboid; sides by their areas; even and odd numbers of cells
-// (neighbouring cuboids are mirrored, which must fit for both). Sums of n
-// positive terms of round-off 2e-16 each: 1e-13.
+// A cuboid has five cells. The areas of the sides are checked for even and odd
+// numbers of cuboids (neighbouring ones are mirrored, which must fit for both).
+// The tolerance, 1e-13, is the round-off of sums of n positive terms.
 TEST(BoxMesh, VolumeAndSides)
 {
   SerialMesh mesh = make_box("-1, 2, 0.5", "2, 0.5, 0.25", "5, 2, 3");
@@ -64,7 +64,8 @@ TEST(BoxMesh, VolumeAndSides)
   for (const auto &[id, area] : areas)
     EXPECT_NEAR(area, expected.at(mesh.boundaries.names.at(id)), 1e-13);
 
-  // Each side is where its name says, exactly: corners are not computed.
+  // Each side is exactly where its name says: coordinates of corners are not
+  // computed.
   const double place[6] = {-1, 1, 2, 2.5, 0.5, 0.75};
   for (const SerialMesh::Face &face : mesh.faces)
     for (const unsigned int v : face.vertices)
@@ -88,7 +89,7 @@ TEST(BoxMesh, Quality)
   EXPECT_NEAR(quality.worst_aspect_ratio, (1 + std::sqrt(3.)) / 2, 1e-13);
 }
 
-// The defaults, as the documentation states them, make a valid mesh.
+// The defaults that the documentation states make a valid mesh.
 TEST(BoxMesh, Defaults)
 {
   SerialMesh mesh = BoxMesh().create("");
@@ -103,8 +104,8 @@ TEST(BoxMesh, Refusals)
             "Mesh/box/Cells: too many cells: found 10000 x 10000 x 1, which "
             "makes 5e+08 tetrahedra and, with elements of degree 1, 6e+08 "
             "unknowns; at most 1e8 tetrahedra are allowed");
-  // Coordinates without digits for the cells; and a plate as thin as paper, in
-  // whose size there would be none either.
+  // Coordinates so large that they have no digits left for the cells; also a
+  // plate whose thickness is below the round-off of its size.
   const std::string allowed =
     "; allowed are coordinates up to 1e10 times the shortest edge";
   EXPECT_EQ(refusal([] { make_box("1e17, 0, 0", "1,1,1", "2,1,1"); }),

@@ -95,8 +95,8 @@ TEST(CheckMesh, InvertedCell)
             "(0, 0, 1); the last must see the others counter-clockwise");
 }
 
-// Exactly flat, flat up to round-off, and a vertex used twice. A needle of
-// width 1e-6 is no flat cell.
+// A cell that is exactly flat, one flat up to round-off, and one that has a
+// vertex twice. A needle of width 1e-6 is not flat.
 TEST(CheckMesh, ZeroVolume)
 {
   for (const double z : {0., 1e-16, -1e-16})
@@ -124,8 +124,8 @@ TEST(CheckMesh, ZeroVolume)
   EXPECT_EQ(message(needle), "nothing was refused");
 }
 
-// A third cell on a face, a second one on the same side of a face (both
-// volumes are positive), and one cell listed twice.
+// A third cell on a face, a second one on the same side of a face (both volumes
+// are positive), and a cell that is listed twice.
 TEST(CheckMesh, OverlappingCells)
 {
   SerialMesh mesh = two_cells();
@@ -145,8 +145,8 @@ TEST(CheckMesh, OverlappingCells)
   EXPECT_NE(message(mesh).find("cells overlap"), std::string::npos);
 }
 
-// An interface whose sides have vertices of their own: at the same places, or
-// apart by round-off.
+// An interface each side of which has its own vertices: at the same positions,
+// or a round-off apart.
 TEST(CheckMesh, DuplicateNodes)
 {
   for (const double gap : {0., 1e-15})
@@ -165,7 +165,8 @@ TEST(CheckMesh, DuplicateNodes)
     }
 }
 
-// The same with a gap: what counts is its width over the length of edges.
+// An interface with a gap: what counts is its width relative to the length of
+// edges.
 TEST(CheckMesh, GapsInBodiesOfAnySize)
 {
   for (const double size : {1e-9, 1., 1e9})
@@ -235,7 +236,7 @@ TEST(CheckMesh, FaceOfNoCell)
             "0), which is no face of a cell");
 }
 
-// The same boundary twice is harmless, another one is not.
+// The same boundary may be listed twice for a face, two boundaries may not.
 TEST(CheckMesh, FaceOfTwoBoundaries)
 {
   SerialMesh mesh = two_cells();

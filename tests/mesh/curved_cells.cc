@@ -58,8 +58,8 @@ namespace
   }
 } // namespace
 
-// Refinement by gmsh puts vertices on the spheres: facets miss h^2 of the
-// volume. Maps of degree q interpolate them: h^4 at least.
+// Refinement by gmsh puts vertices on the sphere: the error of the volume is of
+// order h^2 with facets. Maps of degree q interpolate the sphere: h^4 at least.
 TEST(CurvedCells, SphereVolume)
 {
   EXPECT_EQ(read_gmsh(sphere, meshes).curved_nodes.size(), 0u);
@@ -86,8 +86,8 @@ TEST(CurvedCells, SphereVolume)
     }
 }
 
-// Files of every format hold what was made: the same nodes to the digits of
-// ASCII.
+// Files of every format hold the mesh that was made: the nodes are the same to
+// the digits of ASCII.
 TEST(CurvedCells, AllFormats)
 {
   const TemporaryFolder folder;
@@ -124,8 +124,8 @@ TEST(CurvedCells, AllFormats)
     }
 }
 
-// Parts of a curved cell lie on it: the volume remains, and so do straight
-// cells.
+// The children of a curved cell lie in it, so the volume remains; straight
+// cells remain straight.
 TEST(CurvedCells, Refinement)
 {
   for (const std::string degree : {"2", "3"})
@@ -179,9 +179,10 @@ TEST(CurvedCells, OneCell)
             std::string::npos);
 }
 
-// Elements of degree 1 use the vertices only: they take a folded cell, unless a
-// refinement puts vertices where the fold is. With the middle of the edge from
-// (0, 0, 0) to (1, 0, 0) at y = 0.6 the child at (1, 0, 0) is turned over.
+// Elements of degree 1 use only the vertices of cells, so they accept a folded
+// cell, unless refinement puts vertices where the fold is. With the middle of
+// the edge from (0, 0, 0) to (1, 0, 0) at y = 0.6, the child at (1, 0, 0) is
+// inverted.
 TEST(CurvedCells, FoldsAreNoMatterToDegreeOne)
 {
   const TemporaryFolder folder;
@@ -201,7 +202,7 @@ TEST(CurvedCells, FoldsAreNoMatterToDegreeOne)
 
 namespace
 {
-  // The reference cell with the nodes of degree 3, not curved yet.
+  // The reference cell with the nodes of a map of degree 3, still straight.
   SerialMesh
   cubic_cell()
   {
@@ -218,7 +219,7 @@ namespace
 } // namespace
 
 // The nodes at the thirds of an edge are moved by s and -s along y, so that its
-// middle stays. With barycentric coordinates l the determinant there is
+// middle stays. With barycentric coordinates l, the determinant on the edge is
 // 1 - 13.5 s l1 (2 l0 - l1), negative at l1 = 1/3 for s = 0.3. The quadratic
 // interpolant is straight.
 TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
@@ -233,8 +234,9 @@ TEST(CurvedCells, FoldsOfHigherDegreeAreNoMatter)
   EXPECT_NEAR(check_curved_cells(mesh, "", 2, MPI_COMM_SELF), 1, 1e-14);
 }
 
-// Where elements have a lower degree than the cells, their volume is not that
-// of the geometry, which the line above tells: so the log says what they take.
+// Where elements have a lower degree than the maps of the cells, their volume
+// differs from that of the geometry, which another line of the log tells: so
+// the log also tells the volume of the elements.
 TEST(CurvedCells, LogSaysWhatElementsTake)
 {
   const TemporaryFolder folder;

@@ -18,13 +18,14 @@ namespace
 
 
 
-  // A binary STL file with a number that is none.
+  // A binary STL file in which a coordinate is not a number.
   std::string
   with_nan()
   {
     std::string bytes = stl_bytes(whole_box);
-    // The last coordinate of the second corner of the second triangle: behind
-    // the head of 84 bytes, 50 for each triangle, 12 for each vector.
+    // The position of the last coordinate of the second corner of the second
+    // triangle: behind a head of 84 bytes, 50 bytes for a triangle, and 12 for
+    // each vector.
     const float nan = std::numeric_limits<float>::quiet_NaN();
     std::memcpy(&bytes[84 + 50 + 12 + 12 + 8], &nan, 4);
     return bytes;
@@ -121,8 +122,8 @@ namespace
 
 
 
-  // However much of a file is missing, that is said: only what follows its
-  // last triangle may go.
+  // A file that is cut off is refused, however much is missing: only what
+  // follows its last triangle may be missing.
   TEST(DamagedSurfaces, CutOffAnywhere)
   {
     const TemporaryFolder                                folder;

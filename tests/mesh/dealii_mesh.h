@@ -10,8 +10,9 @@
 
 namespace corotet::tests
 {
-  // deal.II gives faces of the surface that nobody mentions the boundary id 0,
-  // which may be a named boundary's. So ids travel with these two swapped.
+  // deal.II gives the boundary id 0 to all faces of the surface without an id,
+  // which may be the id of a named boundary. So deal.II gets 0 and
+  // unnamed_boundary swapped.
   inline dealii::types::boundary_id
   swapped(const dealii::types::boundary_id id)
   {
@@ -20,7 +21,7 @@ namespace corotet::tests
     return id == unnamed_boundary ? 0 : id;
   }
 
-  /// deal.II's triangulation of a mesh, with the cells in their order.
+  /// Makes deal.II's triangulation of a mesh, with the cells in the same order.
   inline void
   make_triangulation(const SerialMesh &mesh, dealii::Triangulation<3> &tria)
   {
@@ -44,7 +45,7 @@ namespace corotet::tests
         face->set_boundary_id(swapped(face->boundary_id()));
   }
 
-  /// Its active cells, and its faces on boundaries with names.
+  /// The active cells of a triangulation, and its faces on named boundaries.
   inline SerialMesh
   make_serial_mesh(const dealii::Triangulation<3> &tria)
   {

@@ -32,14 +32,14 @@ namespace
     return result;
   }
 
-  // A point of the bar [0, n] x [0, 1]^2 that is bent to part of a polygon of
-  // inner radius 3, by an angle [degrees] at each unit of x.
+  // Moves a point of the bar [0, n] x [0, 1]^2, which is bent to a part of a
+  // polygon of inner radius 3, with an angle [degrees] at each unit of x.
   Point<3>
   bent(const Point<3> &x, const double angle)
   {
     const double turn   = angle * dealii::numbers::PI / 180;
     const double radius = 3 + x[2];
-    // Between corners of the polygon along its side.
+    // A point between two corners of the polygon lies on its side.
     const double corner = std::floor(x[0] + 1e-10), s = x[0] - corner;
     const auto   at = [&](const double k) {
       return Point<3>(radius * std::sin(k * turn),
@@ -52,7 +52,8 @@ namespace
   const std::set<std::string> none, inner_and_outer{"z-min", "z-max"};
 } // namespace
 
-// Sides of one cell each: a faceted cylinder if they turn by up to 42 degrees.
+// The sides have one cell each: the bar is taken for a faceted cylinder if
+// neighbouring sides differ by up to 42 degrees.
 TEST(Facets, OfCylinders)
 {
   for (const double angle : {0.5, 5., 15., 30., 40.})
@@ -62,8 +63,9 @@ TEST(Facets, OfCylinders)
       << angle;
 }
 
-// No plane is a facet for being cut into cells: the same polygons with sides of
-// two cells that have vertices inside, few sides, or sharp edges.
+// A plane that is cut into cells is not taken for facets: the same polygons
+// with sides of two cells that have vertices inside, with few sides, or with
+// sharp edges.
 TEST(Facets, OfPolyhedra)
 {
   const auto same = [](const Point<3> &x) { return x; };
@@ -82,8 +84,8 @@ TEST(Facets, OfPolyhedra)
       << angle;
 }
 
-// Three narrow sides, one that has vertices inside, and three narrow ones: no
-// four narrow sides follow each other.
+// Three narrow sides, a wide one with vertices inside, and three narrow ones: a
+// curved surface needs four narrow sides in a row.
 TEST(Facets, OfSidesThatAWideOneSeparates)
 {
   const double corners[] = {0, 1, 2, 3, 5, 6, 7, 8};
@@ -101,7 +103,7 @@ TEST(Facets, OfSidesThatAWideOneSeparates)
             none);
 }
 
-// A remark names the boundaries, and says what to do; once.
+// The remark names the boundaries and says what to do; there is only one.
 TEST(Facets, Remark)
 {
   SerialMesh mesh = box("6, 1, 1", "6, 2, 2");
@@ -118,8 +120,8 @@ TEST(Facets, Remark)
     EXPECT_NE(mesh.remarks[0].find(word), std::string::npos) << word;
 }
 
-// Meshes of other programs are looked at, too; a file of our own keeps what was
-// found, as its ranks have parts of the surface only.
+// Meshes of other programs are checked for facets, too. A mesh file of corotet
+// keeps the remark, as ranks that read it have only parts of the surface.
 TEST(Facets, OfFiles)
 {
   SerialMesh mesh = box("6, 1, 1", "6, 2, 2");

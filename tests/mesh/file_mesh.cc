@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Files of other programs: they are known by what they contain, whatever they
-// are called, and give the body that they describe.
+// Files of other programs: their formats are told by their content, whatever
+// their names are, and their meshes are the bodies that they describe.
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/file_mesh.h>
@@ -27,8 +27,8 @@ namespace
   }
 } // namespace
 
-// A box of 1 x 2 x 3 by each format of CAD programs: plane sides, so that its
-// volume and area are exact but for the digits that a file has.
+// A box of 1 x 2 x 3 in each format of CAD programs. Its sides are plane, so
+// volume and area are exact to the digits that the file has.
 TEST(FileMesh, Solids)
 {
   const TemporaryFolder folder;
@@ -44,19 +44,19 @@ TEST(FileMesh, Solids)
       const auto areas = boundary_areas(mesh);
       EXPECT_EQ(areas.size(), 6u) << extension;
       EXPECT_NEAR(total(areas), 22, 1e-6) << extension;
-      // gmsh writes the surfaces of an IGES file, each for itself.
+      // gmsh writes each surface of an IGES file separately.
       const Known sewn = {"surfaces are sewn to solids, with gaps of less than "
                           "3.7e-08 between their edges"};
       EXPECT_EQ(mesh.remarks, extension == "iges" ? sewn : Known())
         << extension;
-      // Edges are no longer than a twentieth of the diagonal, about.
+      // By default, edges are no longer than about a twentieth of the diagonal.
       EXPECT_GT(mesh.cells.size(), 1000u) << extension;
       EXPECT_LT(read_file(other, "1").cells.size(), 200u) << extension;
     }
 }
 
-// Solids that touch share the faces where they do: each is a region, and there
-// is one body. Surfaces between them are no boundaries.
+// Solids that touch share faces where they do: there is one body with a region
+// for each solid. The surfaces between them are no boundaries.
 TEST(FileMesh, SolidsThatTouch)
 {
   const TemporaryFolder folder;
@@ -70,14 +70,14 @@ TEST(FileMesh, SolidsThatTouch)
   ASSERT_EQ(volumes.size(), 2u);
   EXPECT_NEAR(volumes.begin()->second, 1, 1e-12);
   EXPECT_NEAR(volumes.rbegin()->second, 0.25, 1e-12);
-  // 6 - 1/4 and 1/4 + 2.
+  // The first area, 6, lacks the contact area, 1/4; the second is 1/4 + 2.
   EXPECT_NEAR(total(boundary_areas(mesh)), 8, 1e-12);
   EXPECT_EQ(mesh.remarks, Known());
 }
 
-// What solids have in common is cut from all but the first, and what was no
-// solid is left out; both is said. A file whose second box has lost its shell,
-// one with a loose surface, and boxes that overlap.
+// An overlap of solids stays in the first one only, and what is not a solid is
+// left out; the remarks say so. The files: boxes that overlap, one whose second
+// box has lost its shell, and one with a loose surface.
 TEST(FileMesh, SolidsThatAreCutOrLost)
 {
   const TemporaryFolder folder;
@@ -117,11 +117,11 @@ TEST(FileMesh, SolidsThatAreCutOrLost)
     Known{"beside its solids the file has surfaces, which are left out: 1"});
 }
 
-// IGES files have surfaces that share nothing, not even their edges, which
-// differ where one is a circle and the other a spline: they are sewn. A plate
-// with a hole, a cone, which ends in a point, a solid that touches the plate,
-// and a box with a hollow ball that has a box inside. Plane sides are exact,
-// and a circle of n edges has an area of n r^2 sin(2 pi / n) / 2.
+// Surfaces of IGES files share nothing, not even their edges, which differ
+// where one is a circle and the other a spline: they are sewn together. The
+// body: a plate with a hole, a solid that touches the plate, a cone, which ends
+// in a point, and a box with a hollow ball that has a box inside. Plane sides
+// are exact, and a circle of n edges has an area of n r^2 sin(2 pi / n) / 2.
 TEST(FileMesh, SurfacesAreSewn)
 {
   const TemporaryFolder folder;
@@ -142,7 +142,7 @@ TEST(FileMesh, SurfacesAreSewn)
   std::ranges::sort(volumes);
   ASSERT_EQ(volumes.size(), 5u);
   const double pi = dealii::numbers::PI;
-  // Ten to twelve edges around: of a cone they lose some more towards its
+  // Circles have ten to twelve edges: a cone loses some more volume towards its
   // point, and a ball some 12 % in two directions.
   const double circle = 10 * std::sin(pi / 5) / 2;
   EXPECT_NEAR(volumes[0], 0.4 * 0.4 * 0.4, 1e-12);
@@ -158,7 +158,7 @@ TEST(FileMesh, SurfacesAreSewn)
     << mesh.remarks[0];
 }
 
-// The boundary of a ball is met by curved cells as closely as the degree of
+// Curved cells approximate the boundary of a ball as well as the degree of
 // their maps allows.
 TEST(FileMesh, CurvedCellsOfSolids)
 {
@@ -178,11 +178,11 @@ TEST(FileMesh, CurvedCellsOfSolids)
   EXPECT_LT(errors[2], 2e-4);
 }
 
-// A tube that is thinner than the edges that are asked for: with three of them
-// around it, gmsh's triangles cross each other. Edges get shorter there, which
-// is said, and the volume is that of the box without the ring, 1 - 2 pi^2 R r^2
-// = 0.995: with twelve edges around, the tube has lost 5 % of its own volume,
-// and its ring some more.
+// A tube (torus) that is thinner than the edges that are asked for: with three
+// edges around it, gmsh's triangles cross each other. Edges get shorter there,
+// which a remark says. The volume is that of the box without the ring, 1 - 2
+// pi^2 R r^2 = 0.995: with twelve edges around, the tube has lost 5 % of its
+// own volume, and its ring some more.
 TEST(FileMesh, EdgesThatAreTooLongBecomeShorter)
 {
   const TemporaryFolder folder;
@@ -201,7 +201,7 @@ TEST(FileMesh, EdgesThatAreTooLongBecomeShorter)
   EXPECT_LT(lost, 0.15);
 }
 
-// What the file calls solids, and the colour of a surface.
+// The file's names of solids name regions, and colours of surfaces boundaries.
 TEST(FileMesh, NamesAndColours)
 {
   const TemporaryFolder folder;
@@ -218,13 +218,13 @@ TEST(FileMesh, NamesAndColours)
          place += to.size())
       text.replace(place, from.size(), to);
   };
-  // Products have names by the program that wrote them.
+  // The program that wrote the file has given products its own names.
   const std::size_t first = text.find("PRODUCT('"),
                     end   = text.find('\'', first + 9);
   const std::string whole = text.substr(first + 9, end - first - 9);
   replace(whole + ".1'", "Rubber pad'");
   replace(whole + ".2'", "Steel plate'");
-  // The number of an entity, "#17", that is followed by some text.
+  // The number of the entity, "#17" say, that stands before the given text.
   const auto number_before = [&](const std::string &what) {
     const std::size_t end = text.find(what), begin = text.rfind('#', end);
     return text.substr(begin, end - begin);
@@ -256,8 +256,8 @@ TEST(FileMesh, NamesAndColours)
   EXPECT_NEAR(boundary_areas(mesh).at(ids[0]), 1, 1e-12);
 }
 
-// The parts in meshes/ that come from other programs, by the volumes of their
-// design. Curved cells of degree 2 meet circles to 1e-4.
+// The volumes of the parts in meshes/ that come from other programs are those
+// of their design. Curved cells of degree 2 approximate circles to 1e-4.
 TEST(FileMesh, ShippedParts)
 {
   const double     pi   = dealii::numbers::PI;
@@ -282,13 +282,14 @@ TEST(FileMesh, ShippedParts)
                 1e-9);
 }
 
-// As of a length in metres for a file in millimetres.
+// The element size is far too small, like one in metres for a file in
+// millimetres.
 TEST(FileMesh, EdgesThatAreFarTooShort)
 {
   const TemporaryFolder folder;
   write_shapes(folder / "box.step",
                [] { gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3); });
-  // 6 / (h^3 / sqrt(72)).
+  // The number of cells is about 6 / (h^3 / sqrt(72)).
   EXPECT_NE(refusal([&] { read_file(folder / "box.step", "0.0001"); })
               .find("edges of 0.0001 make some 5e+13 cells of a body of 1 x 2 "
                     "x 3; 3e+08 are allowed"),
@@ -319,14 +320,14 @@ TEST(FileMesh, Refusals)
       "'; allowed are .msh, .geo, .step, .stp, .iges, .igs, .brep, .stl, "
       ".ply, .obj, .off, "
       ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed, .h5");
-  // A file of another kind than its name says.
+  // The content of this file is not what its name and head say.
   const std::string step =
     folder.write("part.step", "ISO-10303-21;\nHEADER;\n");
   const std::string message = refusal([&] { read_file(step); });
   EXPECT_EQ(message.compare(0, step.size() + 7, step + ": gmsh:"), 0)
     << message;
 
-  // OpenCASCADE would go on for ever.
+  // OpenCASCADE would not come to an end with these files.
   const std::string brep = folder / "part.brep";
   write_shapes(brep, [] { gmsh::model::occ::addSphere(0, 0, 0, 1); });
   std::stringstream bytes;
@@ -341,7 +342,7 @@ TEST(FileMesh, Refusals)
               (folder / "cut.brep") + ": the file does not end with a shape "
                                       "behind those of TShapes: is the rest "
                                       "missing?");
-  // The end of a line is as long as any.
+  // A line behind the shapes may have any length.
   EXPECT_EQ(refusal([&] {
               read_file(folder.write("long.brep",
                                      bytes.str() + "*\n+" +

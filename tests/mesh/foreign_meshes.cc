@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Meshes in the formats of other programs that gmsh writes: Nastran, UNV,
-// Medit, CGNS and VTK. The bodies are known; what is cut off is refused. More
-// files of VTK: tests/program/vtk_files.py.
+// Meshes that gmsh writes in the formats of other programs: Nastran, UNV,
+// Medit, CGNS and VTK. The bodies are known; files that are cut off are
+// refused. For more files of VTK see tests/program/vtk_files.py.
 
 #include <corotet/mesh/mesh_format.h>
 
@@ -18,7 +18,7 @@ namespace
 {
   using Known = std::vector<std::string>;
 
-  // Two boxes, with names.
+  // Writes a mesh of two boxes, with names.
   void
   write_boxes(const std::string &file, const int degree)
   {
@@ -39,19 +39,19 @@ namespace
   struct Format
   {
     std::string extension;
-    // Digits of coordinates in the file allow this error of the volumes.
+    // The error of volumes that the digits of coordinates in the file allow.
     double tolerance;
     bool   has_names;
   };
 
-  // Nastran has seven digits in small fields.
+  // Nastran's small fields have seven digits of a number.
   const Format formats[]{{".bdf", 1e-6, false},
                          {".unv", 1e-14, true},
                          {".vtk", 1e-14, false},
                          {".mesh", 1e-14, false},
                          {".cgns", 1e-14, true}};
 
-  // Sorted.
+  // The values in ascending order.
   std::vector<double>
   values(const std::map<unsigned int, double> &of_ids)
   {
@@ -63,8 +63,8 @@ namespace
   }
 } // namespace
 
-// Volumes of regions. The surface between them is not a boundary
-// of the body: check_mesh() drops it.
+// The volumes of the regions. The surface between them is not a boundary of the
+// body: check_mesh() drops it.
 TEST(ForeignMeshes, Boxes)
 {
   const TemporaryFolder folder;
@@ -87,7 +87,7 @@ TEST(ForeignMeshes, Boxes)
       }
 }
 
-// Under any name, where the content tells.
+// A file may have any name if its content tells the format.
 TEST(ForeignMeshes, AnyName)
 {
   const TemporaryFolder folder;
@@ -131,7 +131,7 @@ TEST(ForeignMeshes, Numbers)
   EXPECT_NEAR(area(medit, "4"), 0.5, 1e-15);
 }
 
-// What is left of a file that was cut off anywhere is no smaller mesh.
+// A file that is cut off anywhere is refused, not read as a smaller mesh.
 TEST(ForeignMeshes, CutOff)
 {
   const TemporaryFolder folder;

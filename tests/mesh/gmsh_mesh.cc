@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 // Meshes from gmsh: all formats of one body agree with each other and with the
-// body's exact volume and areas; files that cannot be used are refused by name.
+// exact volume and areas; messages about files that cannot be used name them.
 
 #include <corotet/mesh/check_mesh.h>
 
@@ -37,7 +37,7 @@ Mesh.MeshSizeMin = 0.4;
 Mesh.MeshSizeMax = 0.4;
 )";
 
-  // An ASCII file of version 2.2.
+  // The text of a mesh file of version 2.2 in ASCII.
   std::string
   msh(const std::string &nodes, const std::string &elements)
   {
@@ -45,7 +45,7 @@ Mesh.MeshSizeMax = 0.4;
            "$EndNodes\n$Elements\n" + elements + "$EndElements\n";
   }
 
-  // Nodes of the unit tetrahedron, with sparse numbers.
+  // The nodes of the unit tetrahedron, with numbers that leave gaps.
   const std::string unit_nodes =
     "4\n10 0 0 0\n2000000 1 0 0\n300 0 1 0\n40000 0 0 1\n";
 
@@ -56,7 +56,8 @@ Mesh.MeshSizeMax = 0.4;
     EXPECT_EQ(mesh.regions.names, (Names{{4, "small"}, {17, ""}}));
     EXPECT_EQ(mesh.boundaries.names,
               (Names{{4, "left"}, {8, "middle"}, {30, ""}}));
-    // Plane sides: exact up to the round-off of some hundred terms.
+    // Sides are plane, so volumes are exact to the round-off of some hundred
+    // terms.
     EXPECT_NEAR(region_volumes(mesh).at(4), 1, 1e-13);
     EXPECT_NEAR(region_volumes(mesh).at(17), 2, 1e-13);
     EXPECT_NEAR(boundary_areas(mesh).at(4), 1, 1e-13);
@@ -76,7 +77,7 @@ Mesh.MeshSizeMax = 0.4;
   }
 } // namespace
 
-// The named surface between the bricks is dropped by the check.
+// check_mesh() drops the named surface between the bricks.
 TEST(GmshMesh, Geometry)
 {
   const TemporaryFolder folder;
@@ -142,7 +143,7 @@ TEST(GmshMesh, ScalingFactor)
 }
 
 // Straight cells along a curved surface are remarked on, also if they have as
-// many nodes as curved ones.
+// many nodes as curved cells.
 TEST(GmshMesh, StraightCellsOfTenNodes)
 {
   const TemporaryFolder    folder;
@@ -232,7 +233,8 @@ TEST(GmshMesh, FileNames)
       ".inp, .bdf, .nas, .unv, .vtk, .vtu, .mesh, .cgns, .med, .rmed, .h5");
 }
 
-// A mesh has its size; asking for another one must not be ignored silently.
+// The element size of a finished mesh is fixed; an entry that asks for another
+// one must not be ignored silently.
 TEST(GmshMesh, ElementSizeOfAMesh)
 {
   EXPECT_EQ(refusal(
@@ -284,7 +286,8 @@ TEST(GmshMesh, NoTetrahedra)
   EXPECT_EQ(message(file), file + ": the mesh has no tetrahedra");
 }
 
-// Hexahedra and prisms of extruded layers, pyramids by hand.
+// gmsh makes hexahedra and prisms by extruding layers; the file with pyramids
+// is written by hand.
 TEST(GmshMesh, OtherCells)
 {
   const TemporaryFolder folder;
@@ -312,7 +315,7 @@ TEST(GmshMesh, OtherCells)
             file + others + "1 of the type 'Pyramid 5'" + allowed);
 }
 
-// gmsh hands an inverted cell on as it is.
+// gmsh passes on an inverted cell as it is.
 TEST(GmshMesh, InvertedCell)
 {
   const TemporaryFolder folder;
@@ -330,7 +333,8 @@ TEST(GmshMesh, InvertedCell)
 }
 
 // Two boxes that touch but were not glued, so that each has its own mesh of the
-// interface: gmsh's usual trap. The vertex is one that gmsh happens to make.
+// interface: a usual mistake with gmsh. The vertex is one that gmsh happens to
+// make.
 TEST(GmshMesh, UngluedBodies)
 {
   const TemporaryFolder folder;
@@ -347,7 +351,7 @@ TEST(GmshMesh, UngluedBodies)
             std::string::npos);
 }
 
-// What belongs to several groups is found by each of their names.
+// A cell or face of several groups is found by the name of each.
 TEST(GmshMesh, GroupsThatOverlap)
 {
   const TemporaryFolder folder;

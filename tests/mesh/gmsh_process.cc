@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// gmsh runs in a process of its own: what a file does there, or what happens to
-// it there, ends in a message.
+// gmsh runs in a process of its own: whatever a file does there, or whatever
+// happens to that process, corotet ends with a message.
 
 #include <corotet/mesh/gmsh_process.h>
 
@@ -60,7 +60,7 @@ namespace
   }
 } // namespace
 
-// Named with line, word and reason, before gmsh sees the file.
+// The message names file, line, word and reason before gmsh sees the file.
 TEST(GmshProcess, GeometryMayNotDoHarm)
 {
   const TemporaryFolder folder;
@@ -106,13 +106,13 @@ TEST(GmshProcess, GeometryMayNotDoHarm)
       EXPECT_EQ(message_of(file),
                 file + ":" + std::to_string(line) + ": " + what + end);
     }
-  // What ends a comment for gmsh, and not for who reads lines.
+  // A zero byte ends a comment for gmsh, but not for a reader of lines.
   const std::string with_zero =
     folder.write("x.geo", std::string("// \0 Exit;\n", 11));
   EXPECT_EQ(message_of(with_zero),
             with_zero + ": is no text: found a byte that is zero");
-  // In a file that is included, with its own name and line; a folder is left
-  // through a link, too.
+  // A forbidden word in a file that is included is reported with that file and
+  // line; a link may not lead out of the folder either.
   const std::string part = folder.write("part.geo", "x = 1;\nExit;\n");
   EXPECT_EQ(message_of(folder.write("x.geo", "Include \"part.geo\";\n")),
             part + ":2: found 'Exit', which ends gmsh" + end);
@@ -127,8 +127,8 @@ TEST(GmshProcess, GeometryMayNotDoHarm)
   EXPECT_FALSE(std::filesystem::exists(marker));
 }
 
-// Words in texts, comments and names of options do nothing; files of the folder
-// are read.
+// Words in strings, comments and names of options are harmless, and files of
+// the folder may be read.
 TEST(GmshProcess, HarmlessGeometry)
 {
   const TemporaryFolder folder;
@@ -143,7 +143,7 @@ TEST(GmshProcess, HarmlessGeometry)
   EXPECT_NEAR(mesh_quality(mesh).volume, 6, 1e-12);
 }
 
-// A name that is known at run time only: the kernel refuses the file.
+// A file name that is known at run time only: here the kernel refuses access.
 TEST(GmshProcess, NothingIsReadOutside)
 {
   if (!has_landlock())
@@ -154,7 +154,7 @@ TEST(GmshProcess, NothingIsReadOutside)
     "Include StrCat(\"" + (other / "") + "\", \"part.geo\");\n";
   const std::string message = message_of(folder.write("x.geo", include));
   EXPECT_NE(message.find("part.geo"), std::string::npos) << message;
-  // The same from where it may.
+  // The same file is read where it is in the folder of the geometry.
   const std::string own = other.write("x.geo", include);
   EXPECT_NEAR(mesh_quality(read_gmsh(own)).volume, 6, 1e-12);
 }
@@ -174,12 +174,12 @@ TEST(GmshProcess, TimeLimit)
               ": gmsh has not come to an end in 1 s");
 }
 
-// A header that promises more than the file has.
+// The header of the file promises more nodes than the file has.
 TEST(GmshProcess, MemoryLimit)
 {
   const TemporaryFolder folder;
-  // gmsh names no line, and corotet's own reader of version 2 the one behind
-  // the number.
+  // The message about gmsh's failure has no line; that of corotet's own reader
+  // for version 2 names the line behind the number.
   const std::map<std::string, std::string> starts{
     {"4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2000000000 1 2000000000\n"
      "3 1 0 2000000000\n",
@@ -197,8 +197,8 @@ TEST(GmshProcess, MemoryLimit)
     }
 }
 
-// Bytes that are not as they were: a mesh, or a message about the file. Some of
-// these end gmsh by a signal.
+// Files with changed bytes give a mesh, or a message about the file. Some of
+// them end gmsh by a signal.
 TEST(GmshProcess, DamagedBinaryMeshes)
 {
   const TemporaryFolder folder;
@@ -239,7 +239,8 @@ TEST(GmshProcess, DeepIncludes)
               ": files include each other more than 20 deep");
 }
 
-// Whatever a damaged process of gmsh hands back is a model or a message.
+// A damaged process of gmsh may hand back anything: the result is a model or a
+// message.
 TEST(GmshProcess, OtherModels)
 {
   GmshModel model;
@@ -268,7 +269,7 @@ TEST(GmshProcess, OtherModels)
     [](GmshModel &changed) { changed.curves = {{1, 1, {1, 2, 3}}}; },
     [](GmshModel &changed) { changed.curves = {{1, 15, {1}}}; },
     [](GmshModel &changed) { changed.points = {{1, 1, {1, 2}}}; },
-    // A message does not excuse it.
+    // A wrong model is refused, also if it comes with a message of gmsh.
     [](GmshModel &changed) {
       changed.error    = "no mesh";
       changed.surfaces = {{1, 3, {1, 2, 3}}};
@@ -280,7 +281,7 @@ TEST(GmshProcess, OtherModels)
       EXPECT_EQ(message_about(changed), message);
     }
   EXPECT_EQ(refusal([] { model_of_bytes("abc", "x.msh"); }), message);
-  // Of other reference nodes: here all are in one place.
+  // The reference nodes are wrong: here all are at one place.
   EXPECT_EQ(refusal([&] { mesh_of_model(model, "x.msh", false); }),
             "x.msh: gmsh has handed back other reference nodes than those of "
             "its tetrahedra; is the file damaged?");

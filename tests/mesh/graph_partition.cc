@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Cells as PT-Scotch shares them out, compared with the pieces of the curve.
+// Cells as PT-Scotch distributes them, compared with the pieces of the curve.
 
 #include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/distributed_triangulation.h>
@@ -24,7 +24,8 @@ namespace
 {
   const unsigned int curved_from = 100;
 
-  // In pieces of the curve, of which the first are curved where asked for.
+  // A box distributed in pieces of the space-filling curve; with @p is_curved
+  // the first cells are curved.
   LocalMesh
   along_curve(const std::string &cells, const bool is_curved = false)
   {
@@ -55,7 +56,7 @@ namespace
     return dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
   }
 
-  // Of the cells that a rank owns: what is known of each, by its number.
+  // The vertices of each cell that this rank owns, by the number of the cell.
   std::map<std::uint64_t, std::array<dealii::Point<3>, 4>>
   owned_cells(const LocalMesh &mesh)
   {
@@ -67,7 +68,8 @@ namespace
     return cells;
   }
 
-  // Of numbers and places: tells whether each cell is there once.
+  // Sums of numbers and positions over the cells of all ranks; they tell
+  // whether each cell is there once.
   std::vector<double>
   sums_over_cells(const LocalMesh &mesh)
   {
@@ -95,7 +97,7 @@ namespace
   };
 } // namespace
 
-// Cells have another owner, and are what they were.
+// Cells get another owner, but keep their numbers and vertices.
 TEST_F(GraphPartition, KeepsCells)
 {
   const LocalMesh before = along_curve("9, 3, 5");
@@ -104,13 +106,13 @@ TEST_F(GraphPartition, KeepsCells)
   EXPECT_TRUE(std::is_sorted(mesh.numbers.begin(), mesh.numbers.end()));
   const std::vector<double> found    = sums_over_cells(mesh);
   const std::vector<double> expected = sums_over_cells(before);
-  // But for the round-off of sums in another order.
+  // The tolerance is the round-off of sums in another order.
   for (unsigned int i = 0; i < found.size(); ++i)
     EXPECT_NEAR(found[i], expected[i], 1e-12 * expected[i]);
 }
 
-// What is beside the owned cells, and behind their faces, is what deal.II
-// finds; boundaries are where they were.
+// The ghost cells, and the neighbours behind faces, are those that deal.II
+// finds; boundaries remain.
 TEST_F(GraphPartition, AgreesWithDealII)
 {
   const LocalMesh                mesh = by_graph(along_curve("5, 4, 3"));
@@ -133,13 +135,14 @@ TEST_F(GraphPartition, AgreesWithDealII)
     std::count_if(mesh.faces.begin(), mesh.faces.end(), [&](const auto &face) {
       return mesh.is_owned(face.cell);
     });
-  // Those of all ranks.
+  // The numbers of faces over all ranks.
   for (const unsigned int n : {n_on_surface, n_named})
     EXPECT_EQ(dealii::Utilities::MPI::sum(n, MPI_COMM_WORLD),
               4u * (5 * 4 + 5 * 3 + 4 * 3));
 }
 
-// One percent more than the mean, and the work of one curved cell.
+// A rank's work exceeds the mean by at most one percent and the work of one
+// curved cell.
 TEST_F(GraphPartition, EqualWork)
 {
   const LocalMesh mesh = by_graph(along_curve("8, 4, 4", true));
@@ -152,9 +155,9 @@ TEST_F(GraphPartition, EqualWork)
   EXPECT_LE(work, 1.01 * all / n_ranks() + 2);
 }
 
-// On a long bar there is nothing better than cuts across: two faces for each
-// square of it. Those of the curve are as good on two ranks, as pieces end at
-// the middle, and worse on three.
+// The best partition of a long bar has plane cuts across it, with two faces for
+// each square. On two ranks the cut of the curve is as good, as its pieces end
+// at the middle; on three ranks it is worse.
 TEST_F(GraphPartition, FewFacesBetweenRanks)
 {
   const LocalMesh     before = along_curve("24, 3, 3");
@@ -165,14 +168,14 @@ TEST_F(GraphPartition, FewFacesBetweenRanks)
   EXPECT_LE(n_faces_between_ranks(mesh), n_faces_between_ranks(before));
 }
 
-// The same at each call.
+// Each call gives the same partition.
 TEST_F(GraphPartition, Repeats)
 {
   const LocalMesh before = along_curve("7, 5, 4");
   EXPECT_EQ(partition_graph(before).numbers, partition_graph(before).numbers);
 }
 
-// No rank is without a cell.
+// Each rank has a cell.
 TEST_F(GraphPartition, AsManyCellsAsRanks)
 {
   SerialMesh mesh = box_of_2_by_half_by_1("4, 1, 1");

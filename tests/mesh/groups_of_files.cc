@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Groups of gmsh's files of version 2 are those of their elements, one by one,
-// however entities and numbers are. The volumes and areas of two cubes and
+// Each element of a gmsh file of version 2 belongs to the groups that its own
+// line tells, whatever entity it is of. The volumes and areas of two cubes and
 // their sides are known.
 
 #include <gmsh.h>
@@ -25,8 +25,8 @@ namespace
     "$PhysicalNames\n4\n2 1 \"left\"\n2 2 \"right\"\n3 3 \"A\"\n3 4 \"B\"\n"
     "$EndPhysicalNames\n";
 
-  // Each element has the tags that @p tags gives for its dimension and its
-  // cube.
+  // The lines of the elements, each with the tags that @p tags gives for its
+  // dimension and its cube.
   std::string
   elements_of_cubes(const std::function<std::string(int, int)> &tags)
   {
@@ -55,7 +55,8 @@ namespace
   }
 } // namespace
 
-// Entities of several physical groups; of the same numbers as other groups.
+// All elements are of one entity, which thus has several physical groups; the
+// number of the entity may be that of a group.
 TEST(GroupsOfFiles, ElementsOfOneEntity)
 {
   const TemporaryFolder folder;
@@ -67,8 +68,8 @@ TEST(GroupsOfFiles, ElementsOfOneEntity)
       })))));
 }
 
-// As gmsh writes groups that overlap: an element once for each. Negative
-// numbers turn elements over.
+// gmsh writes overlapping groups so: an element is repeated for each of its
+// groups. Negative numbers of groups turn elements over.
 TEST(GroupsOfFiles, CopiesOfElements)
 {
   const TemporaryFolder folder;
@@ -85,7 +86,7 @@ TEST(GroupsOfFiles, CopiesOfElements)
   expect_cubes(mesh);
   EXPECT_NEAR(volume(mesh, "13"), 2, 1e-14);
   EXPECT_NEAR(area(mesh, "12"), 2, 1e-14);
-  // Of the same group they are copies, which overlap.
+  // Repeated elements of the same group are copies, which overlap.
   const std::string twice =
     folder.write("twice.msh",
                  msh_of_cubes(of_groups(0, 1) + of_groups(0, 1), 32));
@@ -93,7 +94,8 @@ TEST(GroupsOfFiles, CopiesOfElements)
             std::string::npos);
 }
 
-// gmsh joins cells that are in several groups in files of both versions.
+// gmsh joins the copies of cells that are in several groups, in files of both
+// versions.
 TEST(GroupsOfFiles, OverlapInAllVersions)
 {
   const TemporaryFolder folder;
@@ -119,7 +121,7 @@ TEST(GroupsOfFiles, OverlapInAllVersions)
       }
 }
 
-// Groups of one name are one, of all dimensions.
+// Groups with the same name are one group, in each dimension.
 TEST(GroupsOfFiles, TheSameName)
 {
   const TemporaryFolder folder;
@@ -147,8 +149,8 @@ TEST(GroupsOfFiles, TheSameName)
   EXPECT_EQ(lines.edges.size(), 2u);
 }
 
-// What gmsh allows besides: comments before all, and nodes with their places on
-// the geometry.
+// gmsh also allows comments before all sections, and nodes with parameters of
+// their positions on the geometry.
 TEST(GroupsOfFiles, CommentsAndParameters)
 {
   const TemporaryFolder folder;
@@ -186,7 +188,8 @@ TEST(GroupsOfFiles, CommentsAndParameters)
   EXPECT_NEAR(total(region_volumes(read_file(file))), 6, 1e-13);
 }
 
-// Cells that parts of a mesh have of their neighbours are no cells again.
+// Parts of a partitioned mesh may also list cells of their neighbours; these
+// cells are not counted again.
 TEST(GroupsOfFiles, Partitions)
 {
   const TemporaryFolder folder;
@@ -235,8 +238,8 @@ TEST(GroupsOfFiles, RefusalsOfVersion2)
                    "0 for text and 1 for binary with 8");
 }
 
-// A node at two places, and sections that have more than they say: the last
-// cell would be lost.
+// A node at two positions, and sections that have more entries than they say:
+// the last cell would be lost.
 TEST(GroupsOfFiles, LeftoversAndDuplicatesOfVersion2)
 {
   const TemporaryFolder folder;

@@ -44,7 +44,7 @@ namespace
     SharedFolder &
     operator=(const SharedFolder &) = delete;
 
-    // Rank 0 makes the file.
+    // Lets rank 0 write the file.
     std::string
     write(const std::string &file, const SerialMesh &mesh) const
     {
@@ -58,7 +58,8 @@ namespace
     std::string                    name;
   };
 
-  // With regions, boundaries, edges and corners, and some curved cells.
+  // A box with named regions, boundaries, edges and corners, and some curved
+  // cells.
   SerialMesh
   body_with_everything()
   {
@@ -181,7 +182,7 @@ namespace
   }
 } // namespace
 
-// Ids that are no one's, and one that stands for none.
+// A set with an id that does not exist, and a name with a reserved id.
 TEST(Hdf5Mesh, WrongIds)
 {
   using nlohmann::json;
@@ -271,8 +272,8 @@ TEST(Hdf5Mesh, DamagedFiles)
     "found other nodes of a curved cell than its vertices");
   refused(
     [](const std::string &file) {
-      // The text begins with the boundaries; the number of the version follows
-      // the key.
+      // The text begins with the boundaries; the version number follows its
+      // key.
       std::string text;
       const hid_t id      = H5Fopen(file.c_str(), H5F_ACC_RDWR, 0);
       const hid_t dataset = H5Dopen2(id, "description", H5P_DEFAULT);
@@ -314,7 +315,7 @@ TEST(Hdf5Mesh, DamagedFiles)
       "table '" + table + "': there is none");
 }
 
-// A name inside of the body, which the file should not have.
+// A boundary face inside of the body, which the file should not have.
 TEST(Hdf5Mesh, FaceInside)
 {
   const SharedFolder folder;

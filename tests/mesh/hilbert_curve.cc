@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Places on the curve are deal.II's.
+// Positions on the Hilbert curve are the same as deal.II's.
 
 #include <corotet/mesh/hilbert_curve.h>
 
@@ -23,7 +23,7 @@ TEST(HilbertCurve, PlacesAreThoseOfDealII)
                                                       {{0, 0, most}},
                                                       {{1, 2, 4}}};
   std::uniform_int_distribution<std::uint32_t> below(0, most);
-  // All sizes, also those of the smallest cubes.
+  // Coordinates have all magnitudes, down to those of the smallest cubes.
   for (unsigned int i = 0; i < 1000; ++i)
     points.push_back({{below(random) >> i % hilbert_bits,
                        below(random),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What each rank has of a mesh, compared with the whole mesh, which every rank
-// has in these tests, and with deal.II's triangulation.
+// The part of a mesh that each rank has, compared with the whole mesh, which
+// every rank has in these tests, and with deal.II's triangulation.
 
 #include <corotet/mesh/cell_order.h>
 #include <corotet/mesh/distributed_triangulation.h>
@@ -24,7 +24,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // With the cells in the order of a run.
+  // A box with its cells in the order that they have in a run.
   SerialMesh
   sorted_box(const std::string &cells)
   {
@@ -42,9 +42,9 @@ namespace
   }
 } // namespace
 
-// Each cell has one owner, and owners are in the order of the cells. Beside its
-// own a rank has exactly the cells that share a vertex with these. All that is
-// known of a cell is that of the mesh.
+// Each cell has one owner, and owners are in the order of the cells. Apart from
+// its own cells, a rank has exactly the cells that share a vertex with these.
+// All data of a cell are those of the whole mesh.
 TEST(LocalMesh, CellsOfTheMesh)
 {
   const SerialMesh   whole = sorted_box("4, 3, 3");
@@ -88,7 +88,7 @@ TEST(LocalMesh, CellsOfTheMesh)
     }
 }
 
-// Rank 0 has it, the others get it.
+// Only rank 0 has the mesh, and the other ranks get their parts from it.
 TEST(LocalMesh, ComesFromRankZero)
 {
   const SerialMesh whole = sorted_box("3, 2, 2");
@@ -107,7 +107,8 @@ TEST(LocalMesh, ComesFromRankZero)
     EXPECT_EQ(mesh.faces[i].id, expected.faces[i].id);
 }
 
-// What rank 0 sends is nearly what each rank will own: so little is sent again.
+// The piece that rank 0 sends to a rank contains nearly all cells that the rank
+// will own, so few cells are sent again.
 TEST(LocalMesh, PiecesOfTheCurve)
 {
   const SerialMesh   whole = sorted_box("24, 12, 16");
@@ -126,7 +127,7 @@ TEST(LocalMesh, PiecesOfTheCurve)
     }
   EXPECT_EQ(n_pieces, std::vector<unsigned int>(whole.cells.size(), 1));
 
-  // Cells have the numbers of the curve.
+  // Cells are numbered along the curve.
   unsigned int n_own = 0, n_sent_again = 0;
   for (unsigned int c = 0; c < mesh.cells.size(); ++c)
     if (mesh.is_owned(c))
@@ -137,13 +138,13 @@ TEST(LocalMesh, PiecesOfTheCurve)
           std::binary_search(piece.begin(), piece.end(), mesh.numbers[c]) ? 0 :
                                                                             1;
       }
-  // Those of half a layer of cuboids, of six cells each, around a piece, whose
-  // surface is half as large again as that of a cube.
+  // About half a layer of cuboids, with six cells each, around a piece is sent
+  // again; its surface is half as large again as that of a cube.
   EXPECT_LT(n_sent_again, 1.5 * 6 * 6 / 2 * std::pow(n_own / 6., 2. / 3));
 }
 
-// Neighbours, owners, numbers and boundaries are those that deal.II finds by
-// itself, or is told.
+// Neighbours, owners, numbers and boundaries are those that deal.II finds
+// itself, or is given.
 TEST(LocalMesh, AgreesWithDealII)
 {
   const LocalMesh mesh = distribute(sorted_box("4, 3, 2"), MPI_COMM_WORLD);
@@ -176,8 +177,8 @@ TEST(LocalMesh, AgreesWithDealII)
             4u * (4 * 3 + 4 * 2 + 3 * 2));
 }
 
-// Ghosts get what their owners have, whatever they had before; owned cells keep
-// what they have.
+// Ghost cells get the values of their owners, whatever they had before; owned
+// cells keep their values.
 TEST(LocalMesh, GhostsAreUpdated)
 {
   const LocalMesh mesh = distribute(sorted_box("4, 2, 3"), MPI_COMM_WORLD);
@@ -191,9 +192,9 @@ TEST(LocalMesh, GhostsAreUpdated)
       EXPECT_EQ(values[3 * c + i], 10 * mesh.numbers[c] + i);
 }
 
-// Curved cells count twice: with those of the first half of the box, the first
-// of two ranks has a third of all cells. No rank is without one, though the
-// work of one cell may be more than a share.
+// A curved cell counts as two. The cells of the first half of the box are
+// curved, so the first of two ranks has a third of all cells. Each rank has a
+// cell, though the work of one cell may exceed a rank's share.
 TEST(LocalMesh, EqualWork)
 {
   const unsigned int n_ranks =

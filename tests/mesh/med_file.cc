@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Meshes in files of MED, written here by MED's own library. Two tetrahedra
-// with the common face x = 0, groups that overlap, and what is refused.
+// Meshes in files of MED, written here with MED's own library: two tetrahedra
+// with the common face x = 0, groups that overlap, and refusals.
 
 #ifdef COROTET_MED
 
@@ -16,7 +16,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // The mesh, by nodes and numbers of MED, which count from one.
+  // A mesh, with nodes and numbers as in MED, which count from one.
   struct MedMesh
   {
     struct Block
@@ -121,9 +121,9 @@ namespace
     return path;
   }
 
-  // The face x = 0 has the nodes 1, 2, 3; the tips 4 and 5 are at x = 1 and
-  // x = -2. Volumes 1/6 and 1/3. Seen from the tip, MED's nodes 1, 2, 3 of a
-  // tetrahedron go the other way round than gmsh's.
+  // Two tetrahedra of volumes 1/6 and 1/3. Their common face x = 0 has the
+  // nodes 1, 2, 3; the tips 4 and 5 are at x = 1 and x = -2. Seen from the tip,
+  // MED's nodes 1, 2, 3 of a tetrahedron go round the other way than gmsh's.
   MedMesh
   two_tetrahedra()
   {
@@ -143,8 +143,8 @@ namespace
     return med;
   }
 
-  // The same with nodes in the middles of edges, in MED's order: those of the
-  // nodes 1-2, 2-3, 3-1, 1-4, 2-4, 3-4 of each cell.
+  // The same tetrahedra with nodes in the middles of edges, in MED's order:
+  // between the nodes 1-2, 2-3, 3-1, 1-4, 2-4, 3-4 of each cell.
   MedMesh
   two_quadratic_tetrahedra()
   {
@@ -152,8 +152,8 @@ namespace
     med.coordinates = {0, 0,  0,  0,  1, 0,  0,  0, 1,  1, 0,  0,  -2, 0,
                        0, 0,  0,  .5, 0, .5, .5, 0, .5, 0, .5, 0,  0,  .5,
                        0, .5, .5, .5, 0, -1, 0,  0, -1, 0, .5, -1, .5, 0};
-    // 6: 1-3, 7: 2-3, 8: 1-2, 9: 1-4, 10: 3-4, 11: 2-4, 12: 1-5, 13: 3-5,
-    // 14: 2-5.
+    // Nodes and their edges: 6: 1-3, 7: 2-3, 8: 1-2, 9: 1-4, 10: 3-4, 11: 2-4,
+    // 12: 1-5, 13: 3-5, 14: 2-5.
     med.blocks = {{MED_TETRA10,
                    10,
                    {1, 3, 2, 4, 6, 7, 8, 9,  10, 11,
@@ -187,11 +187,11 @@ TEST(MedFile, Names)
   EXPECT_NEAR(area(mesh, "wall"), 1, 1e-15);
   EXPECT_NEAR(area(mesh, "side"), 0.5, 1e-15);
   EXPECT_EQ(mesh.edges.size(), 1);
-  // One for each name of each.
+  // A corner counts once for each of its names.
   EXPECT_EQ(mesh.corners.size(), 3);
 }
 
-// By its content, whatever its name is.
+// A file of MED is recognised by its content, whatever its name is.
 TEST(MedFile, AnyName)
 {
   const TemporaryFolder folder;
@@ -202,7 +202,7 @@ TEST(MedFile, AnyName)
               1e-15);
 }
 
-// Some programs write tetrahedra in the order of most others.
+// Some programs order the nodes of tetrahedra as most other formats do.
 TEST(MedFile, OtherOrientation)
 {
   const TemporaryFolder folder;
@@ -219,8 +219,8 @@ TEST(MedFile, OtherOrientation)
   EXPECT_TRUE(mesh.curved_nodes.empty());
 }
 
-// Nodes that are in the middles of straight edges leave the cells straight; in
-// another order they would not be there.
+// Cells with nodes in the middles of straight edges are straight; if the order
+// were another one, the nodes would not be in the middles.
 TEST(MedFile, QuadraticCells)
 {
   const TemporaryFolder folder;
@@ -229,7 +229,7 @@ TEST(MedFile, QuadraticCells)
   EXPECT_NEAR(volume(mesh, "all"), 0.5, 1e-15);
   EXPECT_NEAR(area(mesh, "wall"), 0.5, 1e-15);
   EXPECT_TRUE(mesh.curved_nodes.empty());
-  // Node 11, between 2 and 4.
+  // Node 11 lies between 2 and 4.
   med.coordinates[3 * 10 + 1] += 0.01;
   EXPECT_EQ(read_file(write_med(folder / "bent.med", med)).curved_nodes.size(),
             10);
@@ -254,7 +254,7 @@ TEST(MedFile, Refused)
     << message;
 }
 
-// What is left of a file that was cut off anywhere is no smaller mesh.
+// A file that is cut off anywhere is refused, not read as a smaller mesh.
 TEST(MedFile, CutOff)
 {
   const TemporaryFolder folder;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Files of Medit: words in lines of any kind, and what is refused. Nothing that
-// a file says of the mesh is left out silently.
+// Files of Medit: words in lines of any kind, and refusals. Nothing that a file
+// says about the mesh is left out silently.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ namespace
       return read_file(folder.write("body.mesh", text));
     }
 
-    // Without the folder.
+    // The message of the refusal, without the folder.
     std::string
     message(const std::string &text) const
     {
@@ -42,7 +42,7 @@ namespace
     }
 
     TemporaryFolder folder;
-    // Six vertices, in lines 4 to 9.
+    // Six vertices, which are in lines 4 to 9 of the file.
     const std::string start =
       "MeshVersionFormatted 2\nDimension 3\nVertices 6\n0 0 0 0\n1 0 0 0\n"
       "1 1 0 0\n0 1 0 0\n0 0 1 0\n2 0 0 0\n";
@@ -50,7 +50,7 @@ namespace
     const std::string end  = "End\n";
   };
 
-  // Two cubes, with references 1 and 2 of triangles, 3 and 4 of tetrahedra.
+  // Two cubes; triangles have the references 1 and 2, tetrahedra 3 and 4.
   std::string
   medit_of_cubes()
   {
@@ -74,7 +74,7 @@ namespace
   }
 } // namespace
 
-// Lines mean nothing, wherever words stand.
+// Line breaks mean nothing: words may stand in any line.
 TEST_F(MeditFile, Lines)
 {
   const std::string plain = medit_of_cubes();
@@ -93,7 +93,7 @@ TEST_F(MeditFile, Lines)
         with(with(plain, "Tetrahedra", "tetrahedra"),
              "1 0 0 0",
              "1.D0 0 0e0 0"),
-        // The kind of the file is sought in its first lines.
+        // The format of the file is recognised by its first lines only.
         with(one, "MeshVersionFormatted", "\nMeshVersionFormatted") +
           "\nEnd\n"})
     {
@@ -104,7 +104,8 @@ TEST_F(MeditFile, Lines)
     }
 }
 
-// Nodes on edges follow the corners: 1-2, 2-3, 3-1, 1-4, 2-4, 3-4.
+// Nodes on edges follow the vertices, in the order 1-2, 2-3, 3-1, 1-4, 2-4,
+// 3-4.
 TEST_F(MeditFile, TenNodes)
 {
   const SerialMesh mesh = read(
@@ -120,8 +121,8 @@ TEST_F(MeditFile, TenNodes)
   EXPECT_NEAR(area(mesh, "4"), 0.5, 1e-15);
 }
 
-// gmsh's own files, of curved cells: in some it writes ten nodes where four are
-// expected.
+// Files that gmsh writes for curved cells: some of them have ten nodes where
+// four are expected.
 TEST_F(MeditFile, FilesOfGmsh)
 {
   const std::string file = folder / "ball.mesh", other = folder / "ball.msh";

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The distributed mesh: whatever the number of ranks, the sums over all of them
-// are those of the one body.
+// The distributed mesh: sums over all ranks are those of the whole body,
+// whatever the number of ranks.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/base/memory.h>
@@ -65,7 +65,7 @@ namespace
     return sum(local);
   }
 
-  // The box of 2 x 0.5 x 1 times scale.
+  // Checks a mesh of the box of 2 x 0.5 x 1 times @p scale.
   void
   expect_box(const Mesh &mesh, const unsigned int n_cells, const double scale)
   {
@@ -75,7 +75,7 @@ namespace
     for (const auto &cell : mesh.triangulation().active_cell_iterators())
       EXPECT_GT(cell->measure(), 0);
 
-    // Round-off of sums of some thousand terms.
+    // The round-off of sums of some thousand terms.
     EXPECT_NEAR(volume(mesh, 0) / std::pow(scale, 3), 1, 1e-12);
     const double expected[6] = {0.5, 0.5, 2, 2, 1, 1};
     for (unsigned int b = 0; b < 6; ++b)
@@ -89,7 +89,7 @@ TEST(Mesh, Distribution)
   expect_box(make_mesh(box_of_2_by_half_by_1("8, 2, 4")), 5 * 8 * 2 * 4, 1);
 }
 
-// Pieces of equal size, but for one cell.
+// Ranks have equal numbers of cells, up to one cell.
 TEST(Mesh, Balance)
 {
   const Mesh   mesh    = make_mesh(box_of_2_by_half_by_1("8, 2, 4"));
@@ -98,8 +98,8 @@ TEST(Mesh, Balance)
   EXPECT_NEAR(n_cells, average, 1);
 }
 
-// Every refinement cuts each cell into eight that fill it; the scale is a
-// factor on lengths.
+// Every refinement cuts each cell into eight that fill it; the scale multiplies
+// lengths.
 TEST(Mesh, RefinementAndScale)
 {
   expect_box(make_mesh(box_of_2_by_half_by_1("2, 1, 1"), 1), 10 * 8, 1);
@@ -109,7 +109,7 @@ TEST(Mesh, RefinementAndScale)
              0.001);
 }
 
-// Ranks may have no cell until all are refined.
+// A rank may have no cell before the refinement.
 TEST(Mesh, RefinementOfOneCell)
 {
   SerialMesh mesh = box_of_2_by_half_by_1("1, 1, 1");
@@ -118,8 +118,7 @@ TEST(Mesh, RefinementOfOneCell)
   EXPECT_NEAR(volume(make_mesh(mesh, 1), 0), 1. / 6, 1e-15);
 }
 
-// A refined mesh is as good as one that was made so fine: it passes the checks
-// that a mesh from elsewhere has to pass.
+// A refined mesh is as good as one that was read: it passes the same checks.
 TEST(Mesh, RefinedMeshIsConforming)
 {
   SerialMesh mesh = box_of_2_by_half_by_1("2, 1, 1");
@@ -156,8 +155,8 @@ TEST(Mesh, RegionsAndUnnamedSurface)
   EXPECT_EQ(distributed.boundaries().all(), (Names{{3, "y-max"}}));
 }
 
-// On no rank does a face claim to be on a side of the box that it is not on,
-// ghost cells' faces included.
+// No rank has a face that claims to be on a side of the box where it is not,
+// not even a face of a ghost cell.
 TEST(Mesh, GhostFacesAreNoSurface)
 {
   const Mesh   mesh     = make_mesh(box_of_2_by_half_by_1("8, 2, 4"));
@@ -172,10 +171,10 @@ TEST(Mesh, GhostFacesAreNoSurface)
         }
 }
 
-// Consecutive cells are neighbours mostly: the mean distance of their centres
-// is below the edge of a cuboid, 0.125. (In the order of creation the mean is
-// about as small within rows, but a random order has 0.9; shuffled input shows
-// that the curve does it. On several ranks there are a few jumps more.)
+// Most consecutive cells are neighbours: the mean distance of their centres is
+// below the edge of a cuboid, 0.125. (In the order of creation it is about as
+// small, but in a random order 0.9: the shuffled input shows that the curve
+// does it. On several ranks there are a few more jumps.)
 TEST(Mesh, OrderAlongCurve)
 {
   SerialMesh mesh = box_of_2_by_half_by_1("16, 4, 8");
@@ -196,9 +195,9 @@ TEST(Mesh, OrderAlongCurve)
   EXPECT_LT(length / centres.size(), 0.125);
 }
 
-// The whole way from parameters, and what the log tells. The 2 x 2 x 2 cubes
-// have 27 vertices and 54 edges, and 36 squares with one diagonal each; a
-// refinement adds the centre of every edge and diagonal.
+// A mesh is made from parameters, and the log tells about it. The 2 x 2 x 2
+// cubes have 27 vertices, 54 edges, and 36 squares with one diagonal each; a
+// refinement adds the middle of every edge and diagonal.
 TEST(Mesh, FromParameters)
 {
   MeshParameters           parameters;
@@ -219,7 +218,7 @@ TEST(Mesh, FromParameters)
     const Mesh mesh(parameters, "", comm, log);
     const std::chrono::duration<double> whole =
       std::chrono::steady_clock::now() - start;
-    // Rank 0 reads for all.
+    // Rank 0 reads the mesh for all.
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       EXPECT_GT(mesh.read_time(), 0);
     EXPECT_LE(mesh.read_time(), whole.count());
@@ -239,7 +238,7 @@ TEST(Mesh, FromParameters)
     << log.str();
 }
 
-// A refusal on rank 0 reaches every rank; none is left waiting.
+// A refusal on rank 0 reaches every rank; no rank waits for ever.
 TEST(Mesh, RefusalsReachEveryRank)
 {
   SerialMesh inverted = box_of_2_by_half_by_1("1, 1, 1");
@@ -251,8 +250,9 @@ TEST(Mesh, RefusalsReachEveryRank)
             "Mesh/Refinements: too many cells: found 9 refinements, which "
             "make 6.71e+08 cells of 5; at most 3e+08 are allowed");
 
-  // What the memory cannot hold is refused before anything is made. Several
-  // ranks may be on several machines.
+  // A mesh that does not fit into the memory is refused before anything is
+  // made. With several ranks the test cannot tell, as they may be on several
+  // machines.
   if (dealii::Utilities::MPI::n_mpi_processes(comm) == 1 &&
       available_memory() < 4e11)
     {
@@ -295,7 +295,8 @@ TEST(Mesh, FewerCellsThanRanks)
                 std::to_string(n_ranks) + " ranks; each needs at least one");
 }
 
-// Names first, then ids; and what an unknown one is answered.
+// A text is looked up as a name first, then as an id; messages about unknown
+// names list the known ones.
 TEST(MeshNames, Lookup)
 {
   using Ids = std::vector<unsigned int>;
@@ -322,7 +323,7 @@ TEST(MeshNames, Lookup)
 
 namespace
 {
-  // The box above, stretched to a given height.
+  // The box above, stretched to a given height by a source of meshes.
   class Stretched : public MeshSource
   {
   public:
@@ -346,7 +347,7 @@ namespace
   };
 } // namespace
 
-// A source that a program adds to the library's is selected like these.
+// A mesh source that a program adds can be selected like those of the library.
 TEST(Mesh, FromASourceOfAnotherProgram)
 {
   const AddedCandidate<MeshSource> stretched(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is wrong with a mesh is found on all ranks together as by one that has
-// it whole, and said in the same words; of several places where cells do not
-// fit together, another one may be named.
+// All ranks together find the same faults of a mesh as one rank that has all of
+// it, and report them in the same words; where cells do not fit together at
+// several places, they may name another of these.
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
@@ -20,7 +20,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // What is said of a mesh that only rank 0 has.
+  // The message about a mesh that only rank 0 has.
   std::string
   refusal_on_ranks(const SerialMesh &mesh, const unsigned int n_refinements = 0)
   {
@@ -47,7 +47,7 @@ namespace
     return mesh;
   }
 
-  // Cells, without names, of both; the second is moved.
+  // One mesh with the cells of both, without names; the second body is moved.
   SerialMesh
   two_bodies(const SerialMesh           &first,
              const SerialMesh           &second,
@@ -73,7 +73,7 @@ namespace
     const std::string found = refusal_on_ranks(mesh);
     EXPECT_NE(found.find(words), std::string::npos) << found;
     EXPECT_EQ(found, refusal_of_whole(mesh));
-    // Refinement comes after.
+    // The mesh is checked before it is refined, so the message is the same.
     EXPECT_EQ(found, refusal_on_ranks(mesh, 1));
   }
 } // namespace
@@ -81,7 +81,7 @@ namespace
 TEST(MeshOnRanks, GoodMesh)
 {
   EXPECT_EQ(refusal_on_ranks(box("6, 2, 3")), "nothing was refused");
-  // Two bodies that do not touch.
+  // Two bodies that do not touch are allowed.
   EXPECT_EQ(refusal_on_ranks(two_bodies(box("2, 1, 1"),
                                         box("2, 1, 1"),
                                         dealii::Point<3>(2.1, 0, 0))),
@@ -99,7 +99,8 @@ TEST(MeshOnRanks, InvertedCells)
 TEST(MeshOnRanks, CellTwice)
 {
   SerialMesh mesh = box("6, 2, 3");
-  // One that has neighbours on all sides, far behind in the list.
+  // The cell that is repeated has neighbours on all sides; the copy is far
+  // behind it in the list.
   mesh.cells.push_back(mesh.cells[4]);
   const std::string found = refusal_on_ranks(mesh);
   EXPECT_NE(found.find("cells overlap: the triangle with the centre"),
@@ -107,8 +108,8 @@ TEST(MeshOnRanks, CellTwice)
     << found;
 }
 
-// Nodes that are there twice where two bodies touch; on ranks that each have
-// one of these bodies, no rank sees both by its own cells.
+// Two bodies touch with nodes of their own; if each rank has one body, no rank
+// sees both among its own cells.
 TEST(MeshOnRanks, DuplicateNodes)
 {
   const SerialMesh mesh =
@@ -141,7 +142,7 @@ TEST(MeshOnRanks, FoldedCell)
 {
   SerialMesh mesh      = box("2, 1, 1");
   mesh.geometry_degree = 2;
-  // The middle of an edge beyond its end.
+  // The middle of an edge is moved beyond the end of that edge.
   for (const unsigned int c : {1u, 7u})
     {
       mesh.cells[c].curve = mesh.curved_nodes.size() / 10;

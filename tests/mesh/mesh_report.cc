@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is said of a mesh: figures of a body that is known.
+// The report on a mesh: the numbers for bodies that are known.
 
 #include <corotet/mesh/mesh_report.h>
 
@@ -17,7 +17,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Of a box of 1 x 2 x 3, five tetrahedra.
+  // The report on a box of 1 x 2 x 3 of five tetrahedra.
   std::string
   report(const std::function<void(SerialMesh &)> &change = [](SerialMesh &) {})
   {
@@ -48,8 +48,8 @@ TEST(MeshReport, Box)
               "normal (0, 0, 1)");
 }
 
-// A name has all that belongs to it, whatever else this belongs to; one that is
-// bent has no normal.
+// The line of a name counts all its faces, also those with other names; a name
+// whose faces are not plane has no normal.
 TEST(MeshReport, NamesThatOverlap)
 {
   const std::string text = report([](SerialMesh &mesh) {
@@ -67,8 +67,9 @@ TEST(MeshReport, NamesThatOverlap)
               "normal (-1, 0, 0)");
 }
 
-// Of a cube: the middle cell is regular, with six angles of 70.53 degrees; the
-// four others have three right angles and three of 54.74 degrees.
+// The dihedral angles in a cube: the middle cell is regular, with six angles of
+// 70.53 degrees; the four others have three right angles and three of 54.74
+// degrees.
 TEST(MeshReport, Shapes)
 {
   SerialMesh        mesh = box("1, 1, 1", "1, 1, 1");
@@ -78,8 +79,8 @@ TEST(MeshReport, Shapes)
   expect_line(text, "       1-1.5 100.00 %  " + std::string(40, '#'));
 }
 
-// Each cell with a name of its own: the time is that of so many names, not of
-// their square, which would be half a minute here.
+// Each cell has a name of its own: the time grows with the number of names, not
+// with its square, which would be half a minute here.
 TEST(MeshReport, ManyNames)
 {
   using Clock        = std::chrono::steady_clock;

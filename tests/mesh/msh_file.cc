@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is written for gmsh, and read again through it, is the same mesh to the
-// last digit: cells, curves, regions, boundaries and their names. So is what is
-// written to a file of HDF5.
+// A mesh that is written for gmsh and read again through gmsh is the same to
+// the last digit: cells, curves, regions, boundaries and their names. So is a
+// mesh that is written to an HDF5 file.
 
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/curved_cells.h>
@@ -32,7 +32,7 @@ namespace
     all.insert(all.end(), x.begin_raw(), x.end_raw());
   }
 
-  // All names that mean an id.
+  // All names that mean the given id.
   NameSet
   names_of(const std::string &kind,
            const NamedSets   &named,
@@ -49,7 +49,8 @@ namespace
     return result;
   }
 
-  // Vertices and, if it is curved, nodes of each cell; names of its region.
+  // Vertices and, if it is curved, nodes of each cell, with the names of its
+  // region.
   std::map<Coordinates, NameSet>
   cells_of(const SerialMesh &mesh)
   {
@@ -74,7 +75,7 @@ namespace
     std::map<Coordinates, NameSet> result;
     for (const SerialMesh::Face &face : mesh.faces)
       {
-        // Corners in any order.
+        // Vertices of a face may be in any order.
         std::vector<Coordinates> corners(3);
         for (unsigned int k = 0; k < 3; ++k)
           append(corners[k], mesh.vertices[face.vertices[k]]);
@@ -87,7 +88,7 @@ namespace
     return result;
   }
 
-  // Each with its names.
+  // The positions of named edges and corners, each with its names.
   std::set<std::pair<Coordinates, NameSet>>
   edges_and_corners_of(const SerialMesh &mesh)
   {
@@ -128,13 +129,13 @@ namespace
     write_mesh(folder / "again.msh", mesh);
     const SerialMesh again = read_gmsh(folder / "again.msh");
     expect_equal(again, mesh);
-    // Straight cells along curved surfaces are remarked on, and no others.
+    // Remarks are made for straight cells along curved surfaces only.
     if (mesh.geometry_degree > 1)
       {
         EXPECT_TRUE(again.remarks.empty());
       }
     write_mesh(folder / "again.h5", mesh);
-    // There all ids are listed, without names, too.
+    // An HDF5 file lists all ids, also those without names.
     const UsedNames names(mesh);
     SerialMesh      listed = mesh;
     listed.regions         = names.regions;
@@ -171,8 +172,8 @@ TEST(MshFile, StraightCellsAndNamesThatOverlap)
   expect_the_same_again(mesh);
 }
 
-// Their nodes have other places in gmsh's elements. Of a half ball, some cells
-// are straight.
+// Nodes of curved cells have another order in gmsh's elements. Some cells of
+// this half ball are straight.
 TEST(MshFile, CurvedCells)
 {
   for (const std::string degree : {"2", "3"})
@@ -192,7 +193,7 @@ TEST(MshFile, CurvedCells)
     }
 }
 
-// Regions and boundaries without names are known by the same numbers again.
+// Regions and boundaries without names keep their numbers.
 TEST(MshFile, NumbersWithoutNames)
 {
   const SerialMesh mesh = from_geometry("Box(1) = {0, 0, 0, 1, 1, 1};\n"
@@ -206,8 +207,8 @@ TEST(MshFile, NumbersWithoutNames)
   expect_the_same_again(mesh);
 }
 
-// Region and boundary 0, which gmsh has no groups for, and the largest numbers
-// that it has.
+// Region and boundary 0, for which gmsh has no group, and the largest numbers
+// of groups that gmsh has.
 TEST(MshFile, SmallestAndLargestNumbers)
 {
   for (const unsigned int number : {0u, 1u, 2147483646u, 2147483647u})
@@ -232,7 +233,7 @@ TEST(MshFile, SmallestAndLargestNumbers)
     }
 }
 
-// Names of edges and corners that overlap, with and without names, of cells
+// Overlapping names of edges and corners, and ones without a name, with cells
 // of all degrees.
 TEST(MshFile, EdgesAndCorners)
 {
@@ -253,14 +254,14 @@ TEST(MshFile, EdgesAndCorners)
     }
 }
 
-// A body of one region that has no name.
+// A body whose only region has no name.
 TEST(MshFile, NoNames)
 {
   const SerialMesh mesh = from_geometry("Box(1) = {0, 0, 0, 1, 1, 1};\n", "1");
   expect_the_same_again(mesh);
 }
 
-// A mesh can be made again; anything else is not replaced.
+// A mesh file may be replaced by a new mesh; other files may not.
 TEST(MshFile, WhatIsReplaced)
 {
   const TemporaryFolder folder;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Names of edges and corners: from files, after refinement, on ranks, and what
-// is said of them. Lengths of lines and numbers of vertices are those that the
-// bodies have.
+// Names of edges and corners: from files, after refinement, on ranks, and in
+// the report. Lengths of lines and numbers of vertices are known from the
+// bodies.
 
 #include <corotet/base/text.h>
 #include <corotet/mesh/abaqus_file.h>
@@ -20,7 +20,8 @@ using namespace corotet;
 using namespace corotet::tests;
 using dealii::Point;
 
-// Parts of an edge have its names, others none; corners stay where they are.
+// The parts of a refined edge have its names, and no other edge gets one;
+// corners stay where they are.
 TEST(NamedEdges, SurviveRefinement)
 {
   SerialMesh mesh = box_with("belt: plane 0 0 0.5 0 0 1, part: belt and x-min",
@@ -38,8 +39,8 @@ TEST(NamedEdges, SurviveRefinement)
   EXPECT_TRUE(mesh.remarks.empty());
 }
 
-// Parts of curved edges lie on the curve: chords of a circle get closer to it
-// by a factor of four with each refinement.
+// The halves of curved edges lie on the curve: the error of a circle's chords
+// decreases by a factor of four with each refinement.
 TEST(NamedEdges, OnCurves)
 {
   const TemporaryFolder folder;
@@ -65,8 +66,8 @@ TEST(NamedEdges, OnCurves)
 
 namespace
 {
-  // A body with names in all dimensions: an edge, one inside of the body, one
-  // that is none of its own, a corner, and a point without a name.
+  // A body with names in all dimensions: an edge on its surface, an edge inside
+  // of it, a line that is no part of it, a corner, and a point without a name.
   const std::string geometry = R"(
 SetFactory("OpenCASCADE");
 Box(1) = {0, 0, 0, 1, 2, 1};
@@ -104,8 +105,8 @@ Physical Point(9) = {100};
   }
 } // namespace
 
-// gmsh's physical curves and points are names of edges and corners, whatever
-// refines them; what no cell has is left out.
+// gmsh's physical curves and points name edges and corners, whoever refines the
+// mesh; those that no cell has are left out.
 TEST(NamedEdges, FromGmsh)
 {
   const TemporaryFolder folder;
@@ -117,7 +118,7 @@ TEST(NamedEdges, FromGmsh)
   SerialMesh mesh = read_gmsh(file, "", "0.6");
   refine_uniformly(mesh, 1);
   expect_names(mesh, remark);
-  // As gmsh writes it, in formats of its own.
+  // The same mesh, written by gmsh in its own formats.
   for (const double version : {2.2, 4.1})
     {
       gmsh::initialize(0, nullptr, false, false);
@@ -132,7 +133,7 @@ TEST(NamedEdges, FromGmsh)
 }
 
 // Lines between vertices that are no edge of a cell, as a damaged file may have
-// them, are left out. Here the diagonal of a cuboid that no cell has.
+// them, are left out: here diagonals of a cuboid.
 TEST(NamedEdges, OfNoCell)
 {
   SerialMesh mesh = tests::box("1, 1, 1", "1, 1, 1");
@@ -145,7 +146,8 @@ TEST(NamedEdges, OfNoCell)
   mesh.corners      = {{8, 0}, {7, 0}, {7, 0}};
   mesh.corner_names = {{{0, "point"}}, {}};
   check_mesh(mesh);
-  // Twelve edges and a diagonal of each side; of 28 pairs of vertices.
+  // Of the 28 pairs of vertices, 18 are edges of cells: the twelve edges of the
+  // cuboid, and a diagonal of each side.
   EXPECT_EQ(mesh.edges.size(), 18u);
   EXPECT_NEAR(edge_length(mesh, "all"), 12 + 6 * std::sqrt(2.), 1e-14);
   EXPECT_EQ(mesh.corners.size(), 1u);
@@ -162,9 +164,9 @@ TEST(NamedEdges, OfNoCell)
             std::string::npos);
 }
 
-// Nodes of a set that are on none of its faces: edges that have all their
-// nodes in it, and vertices. The node between two of these that is not in the
-// set keeps the edge from being held.
+// Nodes of a set that are on none of its faces become edges, if all nodes of an
+// edge are in the set, and else corners. If the node in the middle of an edge
+// is not in the set, the edge is not.
 TEST(NamedEdges, SetsOfNodes)
 {
   const TemporaryFolder folder;
@@ -197,8 +199,8 @@ TEST(NamedEdges, SetsOfNodes)
     << mesh.remarks.at(0);
 }
 
-// Sets that a program has made for itself hide no set of the other kind that
-// has their name.
+// An internal set, which a program has made for itself, does not hide a set of
+// the other kind with the same name.
 TEST(NamedEdges, InternalSets)
 {
   const TemporaryFolder folder;
@@ -215,7 +217,7 @@ TEST(NamedEdges, InternalSets)
             (std::vector<std::string>{"all", "first"}));
 }
 
-// A line for each name, below the boundaries.
+// The report has a line for each name, below the boundaries.
 TEST(NamedEdges, Report)
 {
   const std::string text =
@@ -230,8 +232,8 @@ TEST(NamedEdges, Report)
     << text;
 }
 
-// Ranks get the edges and vertices of their cells: each edge once for each cell
-// around it, as many in all as on one rank, with the same names.
+// Ranks get the named edges and corners of their cells: each edge once for each
+// cell around it, as many on all ranks as on one, with the same names.
 TEST(NamedEdges, OnRanks)
 {
   const auto sums = [](const MPI_Comm comm) {

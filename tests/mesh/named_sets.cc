@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What names and numbers mean where sets overlap.
+// The meaning of names and numbers where sets overlap.
 
 #include <corotet/mesh/mesh_names.h>
 
@@ -13,8 +13,8 @@
 
 using namespace corotet;
 
-// Sets that overlap: each member has one id, and every name means what it
-// meant before others came.
+// Where sets overlap, each member has one id, and every name keeps the meaning
+// that it had before other sets were added.
 TEST(NamedSets, Overlap)
 {
   using Ids = std::vector<unsigned int>;
@@ -41,7 +41,7 @@ TEST(NamedSets, Overlap)
   EXPECT_EQ(members("top"), (Members{1, 2, 3}));
   EXPECT_EQ(members("all"), (Members{0, 1, 2, 3, 4, 5}));
   EXPECT_EQ(members("last"), (Members{5}));
-  // Numbers of ids with and without a name, whole and split ones.
+  // The numbers of ids mean the members that they had before they were split.
   named.add("first", {0}, places);
   EXPECT_EQ(members("0"), (Members{0, 1, 2}));
   EXPECT_EQ(members("1"), (Members{3, 4}));

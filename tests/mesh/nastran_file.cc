@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Bulk data of Nastran in all formats of fields, and what is refused of it:
-// nothing that would change the body is left out silently.
+// Bulk data of Nastran in all formats of fields, and refusals: nothing that
+// would change the body is left out silently.
 
 #include <corotet/mesh/curved_cells.h>
 
@@ -24,7 +24,7 @@ namespace
       return read_file(folder.write("part.bdf", text));
     }
 
-    // Without the folder.
+    // The message of the refusal, without the folder.
     std::string
     message(const std::string &text) const
     {
@@ -40,7 +40,7 @@ namespace
   const std::string end   = "ENDDATA\n";
   const std::string nodes =
     "GRID,1,,0.,0.,0.\nGRID,2,,1.,0.,0.\nGRID,3,,0.,1.,0.\nGRID,4,,0.,0.,1.\n";
-  // The first of them is off the middle of its edge.
+  // Nodes on edges; the first one is not in the middle of its edge.
   const std::string middles =
     "GRID,5,,.5,-.1,0.\nGRID,6,,.5,.5,0.\nGRID,7,,0.,.5,0.\nGRID,8,,0.,0.,.5\n"
     "GRID,9,,.5,0.,.5\nGRID,10,,0.,.5,.5\n";
@@ -57,8 +57,8 @@ namespace
   }
 } // namespace
 
-// Free, short and long fields, with tabs, in lower case, and exponents without
-// a letter.
+// Fields may be free, short or long, with tabs or in lower case, and exponents
+// may lack the letter.
 TEST_F(NastranFile, Fields)
 {
   const std::string long_nodes =
@@ -87,7 +87,7 @@ TEST_F(NastranFile, Fields)
     EXPECT_NEAR(volume(read(text), "7"), 1 / 6., 1e-15) << text;
 }
 
-// Whatever stands between the lines of a card.
+// Other lines may stand between the lines of a card.
 TEST_F(NastranFile, TenNodes)
 {
   const std::string all = start + nodes + middles;
@@ -133,8 +133,8 @@ TEST_F(NastranFile, Refusals)
             "contain");
 }
 
-// What the bulk data have twice, and nodes of elements of a degree that Nastran
-// does not have.
+// Nodes and elements that the bulk data have twice, and elements with too many
+// nodes.
 TEST_F(NastranFile, LeftoversAndDuplicates)
 {
   EXPECT_EQ(message(start + nodes + "GRID,2,,1.,0.,1.\n" + cell + end),
@@ -148,7 +148,8 @@ TEST_F(NastranFile, LeftoversAndDuplicates)
             "part.bdf:12: a CTETRA has 4 or 10 nodes: found '3' behind them");
 }
 
-// The log says which cards are not read, and what is named by its own number.
+// The log says which cards are not read, and which parts are known by their
+// numbers only.
 TEST_F(NastranFile, Remarks)
 {
   using Known = std::vector<std::string>;

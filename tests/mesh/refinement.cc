@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Uniform refinement: the cells are those of deal.II, in the same order, and
-// the same on all ranks together as on one.
+// Uniform refinement: the cells are those of deal.II, in the same order, and on
+// all ranks together the same as on one rank.
 
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/local_mesh.h>
@@ -23,8 +23,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A box whose vertices are shaken, so that all three diagonals are shortest
-  // somewhere.
+  // A box whose vertices are moved at random, so that each of the three
+  // diagonals is the shortest somewhere.
   SerialMesh
   shaken_box()
   {
@@ -80,7 +80,7 @@ TEST(Refinement, IsDealIIs)
   EXPECT_EQ(mesh.vertices.size(), expected.vertices.size());
   for (unsigned int c = 0; c < mesh.cells.size(); ++c)
     {
-      // Middles are the same sums.
+      // Both compute the middles of edges by the same sums, so they are equal.
       EXPECT_EQ(places(mesh, mesh.cells[c]),
                 places(expected, expected.cells[c]))
         << c;
@@ -98,7 +98,7 @@ TEST(Refinement, OnRanks)
   SerialMesh     whole = shaken_box();
   MeshPart       part  = owned_part(distribute(whole, comm));
   refine_uniformly(part, 2, comm);
-  // In the same order.
+  // On one rank, the cells have the same order.
   MeshPart one = owned_part(distribute(whole, MPI_COMM_SELF));
   refine_uniformly(one, 2, MPI_COMM_SELF);
   const std::size_t n = one.cells.size();
@@ -132,9 +132,9 @@ TEST(Refinement, OnRanks)
   EXPECT_EQ(all_places.size(), one.vertices.size());
 }
 
-// A vertex on a curved edge lies on the curve on all ranks, to the last digit
-// at the same place, though only every other cell is curved, each in its own
-// way (so that the mesh has gaps before).
+// A new vertex on a curved edge lies on the curve, at the same position on all
+// ranks to the last digit, though only every second cell is curved, and each in
+// its own way (so that the mesh has gaps before).
 TEST(Refinement, RanksAgreeOnCurves)
 {
   SerialMesh whole      = box_of_2_by_half_by_1("3, 2, 2");
@@ -148,7 +148,7 @@ TEST(Refinement, RanksAgreeOnCurves)
           dealii::Point<3> x = corners[0];
           for (unsigned int k = 0; k < 3; ++k)
             x += xi[k] * (corners[k + 1] - corners[0]);
-          // The middles of edges.
+          // The middles of edges are moved.
           if (std::abs(
                 xi.norm_square() +
                 dealii::Utilities::fixed_power<2>(1 - xi[0] - xi[1] - xi[2]) -
@@ -158,7 +158,8 @@ TEST(Refinement, RanksAgreeOnCurves)
         }
     }
   using Places = std::map<std::uint64_t, std::array<double, 3>>;
-  // Of the corners of all cells; and those of curved cells are nodes.
+  // Positions of the vertices of all cells; checks that those of curved cells
+  // are nodes of their maps.
   const auto places_on = [&](const MPI_Comm ranks) {
     MeshPart part = owned_part(distribute(whole, ranks));
     refine_uniformly(part, 1, ranks);

@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 // Names by place of edges and corners: lengths of lines and numbers of vertices
-// are those that a box has.
+// are known for a box.
 
 #include <gtest/gtest.h>
 
@@ -26,15 +26,16 @@ namespace
   }
 } // namespace
 
-// Edges on the surface with both ends in a shape; those of faces with a name, a
-// normal or of a patch, so that two of these have in common the border between
-// them; and sharp ones, here the twelve edges of the box.
+// A shape selects edges on the surface with both ends in it. A boundary's name,
+// a normal or a patch selects the edges of its faces, so that two of these have
+// the border between them in common. "sharp" selects sharp edges, here the
+// twelve edges of the box.
 TEST(SelectedEdges, Shapes)
 {
   EXPECT_NEAR(selected_length("plane 0 0 0.5 0 0 1"), 6, 1e-13);
   EXPECT_NEAR(selected_length("box 2 0 0 0 0 0"), 2, 1e-14);
   EXPECT_NEAR(selected_length("cylinder 1 0 1 2 0 1 0.01"), 1, 1e-14);
-  // Three edges of cuboids, and the diagonals between their far ends.
+  // Three edges of a cuboid, and the diagonals between their far ends.
   EXPECT_NEAR(selected_length("sphere 0 0 0 0.3"),
               0.75 * (1 + std::sqrt(2.)),
               1e-14);
@@ -47,7 +48,7 @@ TEST(SelectedEdges, Shapes)
               1e-13);
 }
 
-// A selection may use those before it, and leaves them what they are.
+// A selection may use earlier ones, which keep their meaning.
 TEST(SelectedEdges, OverlapAndNames)
 {
   const SerialMesh mesh = box_with(
@@ -62,7 +63,8 @@ TEST(SelectedEdges, OverlapAndNames)
   EXPECT_NEAR(area(mesh, "top"), 2, 1e-13);
 }
 
-// Vertices anywhere in the body; of names, normals and patches those on them.
+// A shape selects vertices anywhere in the body; names, normals and patches
+// select the vertices on them.
 TEST(SelectedCorners, Shapes)
 {
   EXPECT_EQ(n_selected_corners("sphere 1 0.5 0.5 0.01"), 1u);

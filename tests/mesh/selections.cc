@@ -69,8 +69,8 @@ namespace
   TEST_F(Selecting, Shapes)
   {
     EXPECT_NEAR(selected_area("box 0 0 1 2 1 1"), 2, 1e-14);
-    // Faces with all corners inside: corners may be in any order, and on the
-    // border.
+    // A shape selects the faces with all corners inside or on its border; the
+    // two corners of a box may be given in any order.
     EXPECT_NEAR(selected_area("box 1.1 1 1.5 0.5 0 0.9"), 0.5, 1e-14);
     EXPECT_NEAR(selected_area("plane 7 0 1 0 0 -3"), 2, 1e-14);
     EXPECT_NEAR(selected_area("plane 0 0 0.5 0 0 1 or x-min"), 1, 1e-14);
@@ -114,7 +114,8 @@ namespace
 
 
 
-  // Names in quotes may have what lists and selections are made of.
+  // Names in quotes may have the characters that separate parts of lists and
+  // selections.
   TEST_F(Selecting, NamesInQuotes)
   {
     SerialMesh body = box();
@@ -131,7 +132,7 @@ namespace
 
 
 
-  // What there was keeps its meaning, and a selection can use those before it.
+  // Earlier names keep their meaning, and a selection can use those before it.
   TEST_F(Selecting, Overlaps)
   {
     const SerialMesh mesh =
@@ -147,7 +148,7 @@ namespace
       EXPECT_NEAR(tests::area(mesh, name), 1, 1e-13);
     EXPECT_NEAR(tests::volume(mesh, "left"), 1, 1e-14);
     EXPECT_NEAR(tests::volume(mesh, "lower left"), 0.5, 1e-14);
-    // Numbers mean what they meant, too.
+    // Numbers keep their meaning, too.
     for (const std::string number : {"0", "1"})
       EXPECT_NEAR(tests::area(mesh, number), 1, 1e-13);
     for (const std::string number : {"2", "3", "4", "5"})
@@ -158,7 +159,7 @@ namespace
 
 
 
-  // Parts of a surface without names.
+  // Selections work on a surface that has no names.
   TEST_F(Selecting, WithoutNames)
   {
     SerialMesh mesh = box();
@@ -167,12 +168,12 @@ namespace
     const SerialMesh part = with(mesh, "top: normal 0 0 1");
     EXPECT_NEAR(tests::area(part, "top"), 2, 1e-14);
     EXPECT_EQ(part.faces.size(), 64u);
-    // Which id the others had meanwhile is nobody's business.
+    // The id that the other faces had meanwhile is not left behind.
     EXPECT_EQ(part.boundaries.parts.size(), 0u);
     const SerialMesh all = with(mesh, "all: sphere 0 0 0 9");
     EXPECT_NEAR(tests::area(all, "all"), 10, 1e-13);
 
-    // What had no name keeps it for later selections.
+    // Faces without a name are still without a name for later selections.
     const SerialMesh later = with(
       part,
       "sides: not top, same: sides, upper: not sides, some: same and normal 1 0 0, most: sides and not some");
@@ -198,7 +199,8 @@ namespace
 
 
 
-  // Parts without a name are known by their numbers, which no selection takes.
+  // Parts without a name are known by their numbers, which no selection may
+  // take as its name.
   TEST_F(Selecting, NumbersAreNames)
   {
     SerialMesh body = box();

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What selections name on several ranks is what they name where one rank has
-// all cells: the same parts of the same cells, with the same ids, and as many
-// of them in the log.
+// Selections on several ranks name the same parts of the same cells, with the
+// same ids, as on one rank that has all cells; the numbers in the log are the
+// same, too.
 
 #include <deal.II/base/mpi.h>
 
@@ -19,9 +19,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A helix of nearly one turn with a square cross section, made of the box
-  // that a box mesh is: its four smooth sides go past all ranks, and the names
-  // of the box are there.
+  // A box mesh bent to a helix of nearly one turn with a square cross section:
+  // its four smooth sides reach all ranks, and the names of the box remain.
   SerialMesh
   helix()
   {
@@ -34,8 +33,8 @@ namespace
                              x[1] + 0.2 * angle,
                              radius * std::sin(angle));
       }
-    // And two names on lines: along an edge of the surface, and inside of the
-    // body.
+    // Two names on lines are added: along an edge of the surface, and inside of
+    // the body.
     std::set<std::array<unsigned int, 2>> along, inside;
     for (const SerialMesh::Cell &cell : mesh.cells)
       for (const auto &[i, j] : ends_of_edges)
@@ -70,7 +69,7 @@ namespace
     return mesh;
   }
 
-  // What a rank has in the end: numbers of cells, of parts of these, and ids.
+  // The named parts of a rank: numbers of cells, of parts of these, and ids.
   using Parts = std::vector<std::array<std::uint64_t, 3>>;
   struct Named
   {
@@ -191,11 +190,11 @@ TEST(SelectionsOnRanks, Boundaries)
     "10 10 10, f: all and plane 0 0 0 1 0 0 or cylinder -2 0 0 2 0 0 0.9"));
 }
 
-// The patch of each side is all of that side, whatever rank its point is at.
+// The patch of each side is all of that side, whichever rank has its point.
 TEST(SelectionsOnRanks, PatchesGoPastRanks)
 {
-  // Two triangles of each of 24 x 2 quadrilaterals outside and inside, of 24 x
-  // 3 above and below.
+  // There are two triangles on each of 24 x 2 quadrilaterals outside and
+  // inside, and of 24 x 3 above and below.
   for (const auto &[point, n_faces] :
        std::vector<std::pair<std::string, unsigned int>>{{"0 0.56 2.5", 96},
                                                          {"0 0.56 0.9", 96},
@@ -241,7 +240,8 @@ TEST(SelectionsOnRanks, EdgesAndCorners)
   expect_same(parameters);
 }
 
-// The nearest one is that of all ranks.
+// Messages are the same as on one rank: the nearest face or vertex that they
+// name is the nearest one of all ranks.
 TEST(SelectionsOnRanks, Refusals)
 {
   SelectionParameters edges, corners, regions;

@@ -19,7 +19,8 @@ namespace
 {
   const double pi = std::acos(-1.);
 
-  // Areas in m^2: plate, arm and fillet seen from the side; the three holes.
+  // Areas [m^2]: the profile of plate, arm and fillet seen from the side, and
+  // the three holes.
   const double fillet          = (1 - pi / 4) * 0.012 * 0.012;
   const double bracket_profile = 0.008 * 0.080 + 0.092 * 0.008 + fillet;
   const double bracket_holes   = pi * (2 * 0.005 * 0.005 + 0.008 * 0.008);
@@ -31,11 +32,12 @@ struct Part
   double                              volume;
   std::map<unsigned int, std::string> regions;
   std::set<std::string>               boundaries;
-  // Relative: how much coarse facets cut off or add at round surfaces.
+  // The relative error of the volume: how much coarse facets cut off or add at
+  // round surfaces.
   double tolerance;
 };
 
-// What test reports call a part.
+// The name of a part in test reports.
 std::ostream &
 operator<<(std::ostream &stream, const Part &part)
 {
@@ -45,8 +47,8 @@ operator<<(std::ostream &stream, const Part &part)
 class ShippedMesh : public testing::TestWithParam<Part>
 {};
 
-// Every part in meshes/, as geometry and as mesh: passes all checks, has the
-// names its users rely on and, up to its facets, the volume of its design.
+// Every part in meshes/, as geometry and as mesh, passes all checks, has the
+// names that its users rely on and, up to its facets, the volume of its design.
 TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
 {
   for (const std::string extension : {".geo", ".msh"})
@@ -55,7 +57,8 @@ TEST_P(ShippedMesh, LoadsAndPassesTheChecks)
       SerialMesh mesh =
         read_gmsh(GetParam().name + extension, source_path("meshes"));
       check_mesh(mesh);
-      // Of round surfaces on straight cells, by the geometry or by facets.
+      // Parts with round surfaces have one remark, about straight cells or
+      // facets.
       EXPECT_EQ(mesh.remarks.size(), GetParam().tolerance > 1e-9 ? 1u : 0u);
       EXPECT_EQ(mesh.regions.names, GetParam().regions);
 
@@ -79,9 +82,9 @@ const std::vector<Part> parts = {
        {{1, "bracket"}},
        {"wall", "wall-holes", "tip", "tip-hole", "top"},
        0.005},
-  // Prongs, half ring and the stem outside of the ring; how far the stem
-  // dips into the round ring, less than its radius^2 / ring radius, is left
-  // to the tolerance.
+  // Volume of the prongs, of half a ring, and of the stem outside of the ring.
+  // The tolerance covers how far the stem reaches into the ring, which is less
+  // than its radius^2 / ring radius.
   Part{"tuning_fork",
        2 * 0.005 * 0.005 * 0.080 +
          pi / 2 * (0.010 * 0.010 - 0.005 * 0.005) * 0.005 +
@@ -89,7 +92,7 @@ const std::vector<Part> parts = {
        {{1, "fork"}},
        {"stem", "prong-left", "prong-right", "side-left", "side-right"},
        0.02},
-  // A tube of six to eight facets around the helix: the area of a regular
+  // A tube with six to eight facets around a helix: the area of a regular
   // hexagon in a circle is 0.83 of the circle's.
   Part{"spiral_spring",
        pi * 0.003 * 0.003 * 3 * std::hypot(2 * pi * 0.020, 0.012),
@@ -101,8 +104,8 @@ const std::vector<Part> parts = {
        {{1, "steel"}, {2, "rubber"}},
        {"left", "right", "top"},
        1e-12},
-  // Forty-five degrees of a ring with a section of 1 x 1; the sides of the
-  // cells are chords.
+  // Forty-five degrees of a ring with a section of 1 x 1; cells have chords as
+  // sides.
   Part{"bend_45", 100 * pi / 4, {{1, "bend"}}, {"fixed", "tip"}, 1e-3},
   Part{"cook",
        48 * (44 + 16) / 2. * 5,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Cells inside of closed surfaces of triangles.
+// Meshes of the inside of closed surfaces of triangles.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ namespace
     const Triangles  triangles = sphere_triangles(3);
     const SerialMesh mesh      = mesh_of(stl_text(triangles));
     EXPECT_NEAR(total(region_volumes(mesh)), volume_inside(triangles), 1e-13);
-    // All of the surface, and as it was.
+    // The boundary has all triangles of the surface, unchanged.
     EXPECT_EQ(mesh.faces.size(), triangles.size());
     EXPECT_EQ(MeshNames("region", mesh.regions).known(),
               std::vector<std::string>{"solid 1"});
@@ -59,7 +59,7 @@ namespace
         const SerialMesh mesh  = mesh_of(stl_bytes(triangles), size);
         const double     error = 1 - total(region_volumes(mesh)) / volume;
         EXPECT_GT(error, 0);
-        // Of the second order in the size.
+        // The error is of the second order in the size.
         EXPECT_LT(error, before / 3);
         before = error;
         for (const SerialMesh::Face &face : mesh.faces)
@@ -78,7 +78,7 @@ namespace
         const SerialMesh mesh =
           mesh_of(obj_text(box_triangles({0, 0, 0}, {1, 2, 3})), size);
         EXPECT_NEAR(total(region_volumes(mesh)), 6, 1e-12);
-        // Bottom, top, front, back, left, right.
+        // The areas of bottom, top, front, back, left and right.
         const double areas[] = {2, 2, 3, 3, 6, 6};
         for (unsigned int i = 0; i < 6; ++i)
           EXPECT_NEAR(tests::area(mesh, fmt::format("surface {}", i + 1)),
@@ -89,7 +89,7 @@ namespace
 
 
 
-  // A group of the first triangle alone names that triangle, and no body.
+  // A group with the first triangle only names that triangle, and no body.
   TEST_F(SurfaceMesh, GroupOfOneTriangle)
   {
     std::string text = obj_text(box_triangles({0, 0, 0}, {1, 1, 1}));
@@ -106,7 +106,7 @@ namespace
 
 
 
-  // Names of the file that look like those of what has none.
+  // Names in the file may look like the names that unnamed surfaces get.
   TEST_F(SurfaceMesh, NamesLikeNumbers)
   {
     std::string text = obj_text(box_triangles({0, 0, 0}, {1, 1, 1}));
@@ -120,8 +120,8 @@ namespace
 
 
 
-  // A body is called what all of its surface is called, and by no more: here an
-  // object of two materials.
+  // A body has only the names that all of its surface has: here it is an object
+  // of two materials.
   TEST_F(SurfaceMesh, ObjectOfSeveralMaterials)
   {
     std::string text =
@@ -161,17 +161,17 @@ namespace
                     exact,
                     size == "0" ? 1e-12 : 0.1 * exact);
         EXPECT_NEAR(tests::volume(mesh, "solid 3"), 1, 1e-12);
-        // As boundaries, names mean all of their surface.
+        // As boundaries, names mean all faces of their surface.
         EXPECT_NEAR(tests::area(mesh, "shell"), 6 + 6 * 0.6 * 0.6, 1e-12);
       }
   }
 
 
 
-  // Plane sides of a box that is turned a little: in single precision they are
-  // not plane any more, by the last digits of small numbers, and triangles side
-  // by side cross each other as little as they did before. With a second box
-  // that reaches into the first one by as little they do.
+  // The sides of a slightly rotated box: in single precision they are no longer
+  // plane, by the last digits of small numbers, but neighbouring triangles
+  // still do not count as crossing. A second box that reaches into the first
+  // one by as little does cross it.
   TEST_F(SurfaceMesh, SidesThatAreHardlyPlane)
   {
     for (const double degrees : {1e-5, 1e-3, 30.})
@@ -203,7 +203,7 @@ namespace
                 }
               box = finer;
             }
-          // Single precision.
+          // stl_bytes() writes coordinates in single precision.
           EXPECT_NEAR(mesh_quality(mesh_of(stl_bytes(turned(box)))).volume,
                       2e-5,
                       1e-11)
@@ -248,7 +248,7 @@ namespace
     EXPECT_NEAR(distance(2, 2, 0), std::sqrt(2), 1e-15);
     EXPECT_NEAR(distance(5, 0, -4), 5, 1e-15);
 
-    // Against all of them.
+    // The nearest triangle is compared with the distances from all triangles.
     TriangleSurface surface;
     for (const Corners &t : sphere_triangles(3))
       {

@@ -18,7 +18,7 @@
 namespace corotet::tests
 {
   using Corners = std::vector<dealii::Point<3>>;
-  /// Triangles that each have their own corners.
+  /// Triangles, each of which has its own corners.
   using Triangles = std::vector<Corners>;
 
   /// The surface of a box; with @p inwards its triangles face inwards.
@@ -32,7 +32,7 @@ namespace corotet::tests
                               (i & 2 ? high : low)[1],
                               (i & 4 ? high : low)[2]);
     };
-    // Bottom, top, front, back, left, right.
+    // The sides: bottom, top, front, back, left, right.
     const unsigned int faces[6][4] = {{0, 2, 3, 1},
                                       {4, 5, 7, 6},
                                       {0, 1, 5, 4},
@@ -118,7 +118,7 @@ namespace corotet::tests
   inline std::string
   stl_bytes(const Triangles &triangles)
   {
-    // Which binary files may begin with.
+    // Binary files may begin with "solid", too.
     std::string header = "solid of a program that writes binary files";
     header.resize(80, ' ');
     const auto append = [&](const auto &number) {
@@ -137,7 +137,7 @@ namespace corotet::tests
     return header;
   }
 
-  /// Vertices and triangles that share them, as other formats have them.
+  /// Vertices and the triangles that share them, as other formats have them.
   struct SharedVertices
   {
     Corners                                vertices;

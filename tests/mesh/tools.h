@@ -23,7 +23,7 @@
 
 namespace corotet::tests
 {
-  /// The generated box of these lengths, of so many cuboids.
+  /// The generated box of 2 x 0.5 x 1 with so many cuboids.
   inline SerialMesh
   box_of_2_by_half_by_1(const std::string &cells)
   {
@@ -51,7 +51,7 @@ namespace corotet::tests
     return source.create(folder, n_refinements);
   }
 
-  /// A mesh or a geometry of any format, checked.
+  /// The checked mesh of a mesh or geometry file of any format.
   inline SerialMesh
   read_file(const std::string &file,
             const std::string &element_size = "0",
@@ -68,7 +68,7 @@ namespace corotet::tests
     return mesh;
   }
 
-  /// What gmsh writes of shapes.
+  /// Lets gmsh write the shapes that @p make adds to a file.
   inline void
   write_shapes(const std::string &file, const std::function<void()> &make)
   {

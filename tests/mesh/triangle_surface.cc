@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Closed surfaces of triangles: files, what is mended and what is refused.
+// Closed surfaces of triangles: file formats, repairs and refusals.
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,7 @@ namespace
   {
     TemporaryFolder folder;
 
-    // Of the triangles of an STL file.
+    // The repaired surface of an STL file with these triangles.
     TriangleSurface
     mended(const Triangles &triangles) const
     {
@@ -55,11 +55,11 @@ namespace
 
 
 
-  // All of them say the same, whatever the files are called.
+  // Files of all formats give the same surface, whatever their names are.
   TEST_F(SurfaceFiles, Formats)
   {
     const Triangles box = box_triangles({-0.1, 0.25, 1. / 3}, {0.7, 1.5, 2});
-    // Of UTF-8.
+    // The byte order mark of UTF-8.
     const std::string                        mark = "\xEF\xBB\xBF";
     const std::map<std::string, std::string> files{
       {"stl", stl_text(box, "a box")},
@@ -96,8 +96,8 @@ namespace
 
 
 
-  // An L and a comb, extruded, whose ends are polygons that are not convex,
-  // from any of their corners on.
+  // Extruded shapes, an L and a comb, whose ends are polygons that are not
+  // convex; the polygons begin at each of their corners.
   TEST_F(SurfaceFiles, ConcavePolygons)
   {
     const std::vector<std::pair<std::vector<std::array<int, 2>>, double>> ends{
@@ -149,7 +149,7 @@ namespace
 
 
 
-  // Polygons, indices from the end, names of several kinds.
+  // Polygons, indices that count from the end, and names of several kinds.
   TEST_F(SurfaceFiles, NamesOfObj)
   {
     const std::string path = folder.write(
@@ -169,7 +169,7 @@ namespace
 
 
 
-  // Which side is inside is known far from the origin, too.
+  // The inner side is also determined correctly far from the origin.
   TEST_F(SurfaceFiles, FacesOutwards)
   {
     for (const double far : {-1000., 1000.})
@@ -184,8 +184,8 @@ namespace
 
 
 
-  // Three corners on a line, and the neighbour at the long edge has no other
-  // edge to offer: both triangles would have the same ones.
+  // A triangle has three corners on a line, and its neighbour at the long edge
+  // cannot take over the corner: both triangles would have the same edges.
   TEST_F(SurfaceFiles, TriangleWithoutArea)
   {
     const Point<3>    a(0, 0, 0), b(2, 0, 0), c(1, 0, 0), d(1, 1, 0);
@@ -201,8 +201,8 @@ namespace
 
   TEST_F(SurfaceFiles, Mending)
   {
-    // Vertices that differ in the eighth digit, a triangle twice, one turned
-    // over, one that is an edge.
+    // Vertices that differ in the eighth digit, a triangle that is there twice,
+    // one that is turned over, and one that is only an edge.
     Triangles damaged = unit_box;
     damaged[0][1][0] += 3e-8;
     damaged[3][0][2] -= 3e-8;
@@ -222,7 +222,8 @@ namespace
       "than their neighbours"};
     EXPECT_EQ(surface.remarks, remarks);
 
-    // All face inwards: turned without a word, as a hollow would be.
+    // All triangles face inwards, as those of a hollow do: they are turned
+    // without a remark.
     const TriangleSurface turned =
       mended(box_triangles({0, 0, 0}, {1, 1, 1}, true));
     EXPECT_TRUE(turned.remarks.empty());
@@ -231,14 +232,14 @@ namespace
 
 
 
-  // A triangle whose corners lie on a line closes a gap that is none: the edge
-  // of a triangle beside two that have a vertex on it.
+  // A triangle whose corners lie on a line closes the gap between the edge of a
+  // triangle and two neighbours that have a vertex on that edge.
   TEST_F(SurfaceFiles, FlatTriangles)
   {
     for (const double place : {0.5, 0.25, 1e-3})
       {
-        // The edge from (0, 0, 0) to (1, 0, 0) has a vertex, for one of its
-        // neighbours.
+        // One neighbour of the edge from (0, 0, 0) to (1, 0, 0) gets a vertex
+        // on it.
         const Point<3> middle(place, 0, 0);
         Triangles      box = unit_box;
         const auto     at =
@@ -249,7 +250,7 @@ namespace
             return is(0, Point<3>()) && is(1, Point<3>(1, 0, 0));
           });
         ASSERT_NE(at, box.end());
-        // What it is a copy of changes in the next line.
+        // A reference would not do, as the original changes in the next line.
         // NOLINTNEXTLINE(performance-unnecessary-copy-initialization)
         const Corners t = *at;
         *at             = {t[0], middle, t[2]};
@@ -280,12 +281,12 @@ namespace
          "the surface is not closed: found 3 edges of one triangle, the first "
          "at (");
 
-    // Boxes that share an edge.
+    // Two boxes share an edge.
     says(unit_box + box_triangles({1, 1, 0}, {2, 2, 1}),
          "the surface branches: found 1 edge of more than two triangles, the "
          "first at (1, 1, 0.5)");
-    // That cross, that touch with a corner in a face, with a part of a face,
-    // with an edge in a face.
+    // Boxes cross each other, or touch with a corner in a face, with a part of
+    // a face, or with an edge in a face.
     const std::string crosses = "the surface crosses or touches itself: found ";
     says(unit_box + box_triangles({0.5, 0.3, 0.2}, {1.5, 1.2, 1.1}), crosses);
     says(unit_box + box_triangles({1, 0.2, 0.3}, {2, 0.7, 0.6}), crosses);
@@ -293,7 +294,8 @@ namespace
     Triangles corner = box_triangles({0, 0, 0}, {1, 1, 1});
     for (Corners &t : corner)
       for (Point<3> &x : t)
-        // Seen along a diagonal, with a corner at (1, 0.3, 0.4).
+        // A box rotated so that its diagonal is along x, with a corner at (1,
+        // 0.3, 0.4).
         x = Point<3>(1 + x[0] + x[1] + x[2],
                      0.3 + x[0] - x[1],
                      0.4 + x[0] + x[1] - 2 * x[2]);
@@ -303,7 +305,7 @@ namespace
         x[0] += 1e-9;
     EXPECT_NO_THROW(mended(unit_box + corner));
 
-    // A strip with one side.
+    // A Moebius strip, which has one side only.
     Triangles          strip;
     const unsigned int n     = 20;
     const auto         point = [&](const unsigned int i, const double side) {
@@ -324,7 +326,7 @@ namespace
       }
     says(strip, "the surface is not closed: found 40 edges");
 
-    // Nothing but edges.
+    // The only triangle has two equal corners.
     says({{Point<3>(), Point<3>(), Point<3>(1, 0, 0)}},
          "all triangles are without area");
   }
@@ -341,7 +343,7 @@ namespace
     EXPECT_EQ(edges.size(), 4 * 18u);
     const SurfaceShells shells = surface_shells(surface, edges);
     ASSERT_EQ(shells.bodies.size(), 3u);
-    // The innermost is a body in the hollow of the third.
+    // The innermost shell is a body in the hollow of the third.
     EXPECT_EQ(shells.bodies[0].shells, std::vector<unsigned int>{0});
     EXPECT_EQ(shells.bodies[1].shells, (std::vector<unsigned int>{2, 1}));
     EXPECT_EQ(shells.bodies[2].shells, std::vector<unsigned int>{3});

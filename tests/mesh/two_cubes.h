@@ -15,8 +15,9 @@
 #include "tools.h"
 
 /**
- * Two unit cubes side by side in x, of six tetrahedra each, and of two
- * triangles each the sides at x = 0 and x = 2, for the text of a mesh file.
+ * Two unit cubes side by side in x, for the text of a mesh file: six
+ * tetrahedra for each cube, and two triangles for each of the sides x = 0 and
+ * x = 2.
  */
 namespace corotet::tests::two_cubes
 {
@@ -35,8 +36,8 @@ namespace corotet::tests::two_cubes
 
   using Numbers = std::vector<int>;
 
-  /// Nodes, which count from one: the four triangles, then the twelve
-  /// tetrahedra.
+  /// The nodes of each element, which count from one: first the four triangles,
+  /// then the twelve tetrahedra.
   inline const std::vector<Numbers> elements{{1, 4, 10},
                                              {1, 7, 10},
                                              {3, 6, 12},
@@ -54,7 +55,7 @@ namespace corotet::tests::two_cubes
                                              {2, 8, 9, 12},
                                              {2, 8, 12, 11}};
 
-  /// The text that @p line gives for each node.
+  /// The text that @p line makes for each node from its number and position.
   inline std::string
   node_lines(
     const std::function<std::string(int, const std::array<int, 3> &)> &line)
@@ -65,8 +66,8 @@ namespace corotet::tests::two_cubes
     return result;
   }
 
-  /// The same for each element: its number, which cube it belongs to (0 or 1),
-  /// and its nodes.
+  /// The text that @p line makes for each element from its number, its cube (0
+  /// or 1) and its nodes.
   inline std::string
   element_lines(
     const std::function<std::string(int, int, const Numbers &)> &line)
@@ -80,14 +81,15 @@ namespace corotet::tests::two_cubes
     return result;
   }
 
-  /// The physical group, of triangles 1 and 2, of tetrahedra 3 and 4.
+  /// The physical group of an element: 1 and 2 for triangles of the two cubes,
+  /// 3 and 4 for tetrahedra.
   inline int
   group_of(const int dimension, const int cube)
   {
     return 1 + cube + (dimension == 3 ? 2 : 0);
   }
 
-  /// What tests of files expect of a mesh of them.
+  /// Checks the mesh that was read from a file of the two cubes.
   inline void
   expect_cubes(const SerialMesh  &mesh,
                const std::string &a     = "A",

@@ -13,7 +13,8 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-// OpenCASCADE makes millimetres of all units; what others there were is said.
+// OpenCASCADE converts all units to millimetres; a remark names the unit of the
+// file.
 TEST(UnitsOfShapes, Step)
 {
   const TemporaryFolder folder;
@@ -42,7 +43,7 @@ TEST(UnitsOfShapes, Step)
     }
 }
 
-// A part of 30 mm must not become one of 30 m without a word.
+// A part of 30 mm must not become one of 30 m without a warning.
 TEST(UnitsOfShapes, MillimetresTakenForMetres)
 {
   const TemporaryFolder folder;

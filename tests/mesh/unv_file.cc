@@ -2,7 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 // Universal files: groups and numbers of elements, whatever dataset they are
-// in, and what is refused.
+// in, and refusals.
 
 #include <gtest/gtest.h>
 
@@ -19,8 +19,8 @@ namespace
   using two_cubes::Numbers;
   using Known = std::vector<std::string>;
 
-  // A universal file of two cubes. @p numbers: of the property and the
-  // material, for the dimension and the cube.
+  // A universal file of two cubes. @p numbers gives the numbers of property and
+  // material for a dimension and a cube.
   std::string
   unv_of_cubes(const std::function<std::string(int, int)> &numbers,
                const std::string                          &groups = "")
@@ -48,8 +48,8 @@ namespace
            "    -1\n" + groups;
   }
 
-  // A group of elements, by their labels from @p first on, with so many numbers
-  // for each: lines have up to eight of these.
+  // A group of elements with the labels from @p first on and so many numbers
+  // for each of them; a line has up to eight numbers.
   std::string
   unv_group(const int          number,
             const std::string &name,
@@ -83,8 +83,8 @@ namespace
   }
 } // namespace
 
-// By datasets of I-deas and of Salome; names may have blanks, and numbers of
-// materials mean nothing where there are groups.
+// Groups may be in datasets of I-deas or of Salome; names may have blanks, and
+// where there are groups the numbers of materials mean nothing.
 TEST(UnvFile, Groups)
 {
   const TemporaryFolder folder;
@@ -114,7 +114,7 @@ TEST(UnvFile, Groups)
                    "-1"),
               1,
               1e-14);
-  // Groups may overlap; what is in none keeps its number.
+  // Groups may overlap; a cell that is in none keeps its number.
   const SerialMesh overlap = read_file(
     folder.write("cubes.unv",
                  unv_of_cubes(ones,
@@ -126,8 +126,9 @@ TEST(UnvFile, Groups)
   EXPECT_EQ(overlap.cells.size(), 12u);
 }
 
-// Of materials or, if there is one, of properties. In the dataset 780 each of
-// these has two numbers: a bin, and its own.
+// Without groups, cells are numbered by materials, or by properties if there is
+// only one material. In the dataset 780, property and material have two numbers
+// each: a bin, and their own number.
 TEST(UnvFile, Numbers)
 {
   const TemporaryFolder folder;
@@ -159,7 +160,7 @@ TEST(UnvFile, Refusals)
     folder.write("cubes.unv", text);
     return refusal([&] { read_file(file); });
   };
-  // The first tetrahedron.
+  // The beginning of the line of the first tetrahedron.
   const std::string first = "         5       111";
   EXPECT_EQ(message(first, "         5       114"),
             file + ":38: cells other than tetrahedra with 4 or 10 nodes: found "
@@ -172,7 +173,7 @@ TEST(UnvFile, Refusals)
   EXPECT_EQ(message("1 2 5 11\n", "1 2 5 111\n"),
             file + ": an element has the node 111, which the file does not "
                    "contain");
-  // Springs and the like are no cells.
+  // Elements such as springs are no cells.
   EXPECT_EQ(message("    -1\n    -1\n", "    -1\n    -1\n"),
             "nothing was refused");
   folder.write("cubes.unv",
@@ -182,8 +183,8 @@ TEST(UnvFile, Refusals)
             Known{"1 elements of the type 136 are left out"});
 }
 
-// Nothing stands there twice or is left over: groups would lose members, and
-// nodes and elements their names.
+// Duplicates and leftovers are refused, as groups would lose members, and nodes
+// and elements their names.
 TEST(UnvFile, LeftoversAndDuplicates)
 {
   const TemporaryFolder folder;
@@ -193,7 +194,7 @@ TEST(UnvFile, LeftoversAndDuplicates)
     folder.write("cubes.unv", unv_of_cubes(ones, more));
     return refusal([&] { read_file(file); });
   };
-  // Those of two cubes have 62 lines.
+  // The file of the two cubes has 62 lines.
   const std::string start = "    -1\n  2467\n", end = "    -1\n";
   const auto        with_count = [&](const int n, const int n_others = 6) {
     std::string group = unv_group(1, "A", 5, 6);
@@ -237,8 +238,8 @@ TEST(UnvFile, LeftoversAndDuplicates)
                    "the dataset 780: found ' 17 111 1 1 4'");
 }
 
-// Nodes may be defined in a system of their own, but for those of the dataset
-// 2411, which says the one of its export.
+// A node may refer to a coordinate system of its own, except in the dataset
+// 2411, where that number is the system of the export.
 TEST(UnvFile, Systems)
 {
   const TemporaryFolder folder;
@@ -255,7 +256,7 @@ TEST(UnvFile, Systems)
     text.replace(line, head.size(), fmt::format("         3{:10}", system));
     if (dataset == "    15")
       {
-        // Nodes have a line each there.
+        // In that dataset a node has one line.
         const std::size_t begin = text.find(dataset),
                           end   = text.find("-1", begin);
         std::string nodes       = text.substr(begin, end - begin);

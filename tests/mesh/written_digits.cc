@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Cells that are straight but for the digits that a file has of coordinates.
+// Cells that are straight up to the digits that a file has for coordinates.
 
 #include <corotet/mesh/curved_cells.h>
 
@@ -19,7 +19,7 @@ using dealii::Point;
 
 namespace
 {
-  // As a file has the numbers that is written with this format.
+  // The mesh as it is in a file that writes numbers with this format.
   SerialMesh
   written(SerialMesh mesh, const std::string &format)
   {
@@ -34,7 +34,8 @@ namespace
     return mesh;
   }
 
-  // A distorted box, moved and stretched, with maps that are straight.
+  // A distorted box, moved and stretched; its maps have this degree, but are
+  // straight.
   SerialMesh
   straight_box(const unsigned int degree)
   {
@@ -56,7 +57,7 @@ TEST(WrittenDigits, StraightCellsAreTold)
         const std::string remark = remove_written_straight_maps(mesh);
         EXPECT_TRUE(mesh.curved_nodes.empty()) << format;
         EXPECT_EQ(mesh.geometry_degree, 1u) << format;
-        // All digits of a double leave nothing to say.
+        // With all digits of a double there is nothing to remark on.
         EXPECT_EQ(remark.empty(), format == "{:.17g}") << remark;
         if (format == "{:.8e}")
           {
@@ -69,7 +70,7 @@ TEST(WrittenDigits, StraightCellsAreTold)
       }
 }
 
-// Of files of bytes with numbers of single precision.
+// Binary files may have numbers of single precision.
 TEST(WrittenDigits, SinglePrecision)
 {
   const auto single = [](SerialMesh mesh) {
@@ -95,8 +96,8 @@ TEST(WrittenDigits, SinglePrecision)
     }
 }
 
-// What is curved by more than the last digit stays, as in half of this box; the
-// other half is straight.
+// Cells that are curved by more than the last digit stay curved, as in half of
+// this box; the other half is straight.
 TEST(WrittenDigits, CurvedCellsStay)
 {
   for (const unsigned int degree : {2, 3})
@@ -112,7 +113,8 @@ TEST(WrittenDigits, CurvedCellsStay)
     }
 }
 
-// Numbers with few digits are exact: an edge that is bent by its last digit.
+// Numbers with few digits count as exact: here an edge is bent by its last
+// digit.
 TEST(WrittenDigits, RoundNumbersAreExact)
 {
   SerialMesh mesh =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The compiler's tables of the factored kernel against deal.II's element:
-// numbering, change of basis, derivatives, integrals.
+// Tables of the factored kernel, made by the compiler, compared with deal.II's
+// element: numbering, change of basis, derivatives, integrals.
 
 #include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/reference_element.h>
@@ -31,7 +31,7 @@ namespace
   {};
 } // namespace
 
-// Multi-index i over p is node i.
+// The multi-index i over p is the position of node i.
 TEST_P(BernsteinTest, NumbersAreThoseOfTheNodes)
 {
   const dealii::FE_SimplexP<3> fe(GetParam());
@@ -46,7 +46,7 @@ TEST_P(BernsteinTest, NumbersAreThoseOfTheNodes)
   });
 }
 
-// Any Lagrange polynomial, written in Bernstein form, has deal.II's values: at
+// Any Lagrange polynomial, written in Bernstein form, has deal.II's values at
 // points where no polynomial of the basis vanishes.
 TEST_P(BernsteinTest, ChangeOfBasis)
 {
@@ -67,8 +67,8 @@ TEST_P(BernsteinTest, ChangeOfBasis)
   });
 }
 
-// What kernels do for the change of basis, with unit vectors, is the matrix and
-// its transpose, but for round-off of numbers below ten.
+// The kernels' change of basis, applied to unit vectors, gives the columns of
+// the matrix and of its transpose, to the round-off of numbers below ten.
 TEST_P(BernsteinTest, ChangeOfBasisOfKernels)
 {
   with_degree(GetParam(), [&](const auto degree) {
@@ -93,7 +93,8 @@ TEST_P(BernsteinTest, ChangeOfBasisOfKernels)
   });
 }
 
-// Derivatives at the centre and mean squares, from quadrature that is exact.
+// Derivatives at the centre, and means of products, compared with exact
+// quadrature.
 TEST_P(BernsteinTest, DerivativesAndIntegrals)
 {
   const ReferenceElement reference(GetParam());

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A distributed matrix of blocks: who has which nodes, ghosts and columns, what
-// they exchange, and its product, on any number of ranks.
+// A distributed matrix of blocks: the owners of nodes, ghosts and columns,
+// their exchange, and the matrix-vector product, on any number of ranks.
 
 #include <corotet/operators/block_matrix.h>
 
@@ -20,7 +20,7 @@ namespace
 {
   constexpr int n_nodes = 23;
 
-  /// Whether the matrix has a block: it is no band, and of no symmetry.
+  /// Whether the matrix has a block: the pattern is no band and not symmetric.
   bool
   has_block(const int i, const int j)
   {
@@ -33,7 +33,7 @@ namespace
     return std::sin(3. * row + column);
   }
 
-  /// A matrix whose first rank of several owns no nodes.
+  /// A matrix; if there are several ranks, the first one owns no nodes.
   struct Example
   {
     explicit Example(const MPI_Comm comm)
@@ -46,7 +46,7 @@ namespace
       NodeGraph rows;
       for (int i = first; i < end; ++i)
         {
-          // In any order.
+          // Columns may be given in any order.
           for (int j = n_nodes; j-- > 0;)
             if (has_block(i, j))
               rows.columns.push_back(j);
@@ -142,7 +142,8 @@ namespace
 
     check_ghosts(example);
 
-    // The product, entry by entry; sums of up to 69 numbers below one.
+    // The product is checked entry by entry: sums of up to 69 numbers below
+    // one.
     dealii::IndexSet owned(3 * n_nodes);
     owned.add_range(3 * example.first, 3 * example.end);
     Vector x(owned, comm), y(x);

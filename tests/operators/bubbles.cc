@@ -30,7 +30,7 @@ namespace
 {
   constexpr Element with_bubbles = Element::quadratic_with_bubbles();
 
-  // Weights of central differences of fourth order.
+  // Steps and weights of central differences of fourth order.
   const std::vector<std::pair<double, double>> differences{{-2, 1. / 12},
                                                            {-1, -2. / 3},
                                                            {1, 2. / 3},
@@ -45,7 +45,7 @@ namespace
   };
 } // namespace
 
-// Points, weights and derivatives of the compiler's tables are deal.II's.
+// Points, weights and derivatives in the compiler's tables are deal.II's.
 TEST(Bubbles, TablesAreThoseOfTheElement)
 {
   const ReferenceElement reference(Element::quadratic_with_bubbles());
@@ -61,7 +61,7 @@ TEST(Bubbles, TablesAreThoseOfTheElement)
         ++same;
       ASSERT_LT(same, rule.points.size()) << "no point at " << x;
       EXPECT_NEAR(bubbles::stiffness_rule[q].weight, rule.weights[same], 1e-15);
-      // Derivatives of O(10).
+      // The round-off of derivatives of O(10).
       for (int i = 0; i < bubbles::n_nodes; ++i)
         for (int k = 0; k < 3; ++k)
           EXPECT_NEAR(bubbles::point_derivatives[q][i][k],
@@ -75,10 +75,9 @@ TEST(Bubbles, TablesAreThoseOfTheElement)
                   1e-14);
 }
 
-// Quadratic fields are among the functions of the element, and the rule is
-// exact for them: force and energy do what those of the element without bubbles
-// do. With a linear field all cells have the same stress, and no node inside
-// feels a force.
+// The element contains quadratic fields, and the rule is exact for them: the
+// energy is that of the element without bubbles. In a linear field all cells
+// have the same stress, and nodes inside have no force.
 TEST(Bubbles, PatchTest)
 {
   const SerialMesh  mesh   = box("1, 2, 1", "2, 4, 2", 0.2);
@@ -111,7 +110,7 @@ TEST(Bubbles, PatchTest)
             EXPECT_LE(std::abs(f.local_element(3 * n + a)), 1e-13 * size);
         }
     }
-  // Of strain xx = 1, xy = 0.15, yz = 0.5, xz = 0.25.
+  // The strain is xx = 1, xy = 0.15, yz = 0.5, xz = 0.25.
   const auto   stresses = body.elasticity.cell_results(u).von_mises;
   const double mu       = 1e3 / 2.8;
   const double expected =
@@ -121,8 +120,8 @@ TEST(Bubbles, PatchTest)
     EXPECT_NEAR(stress, expected, 1e-12 * expected);
 }
 
-// Rigid motions strain nothing: forces as small as round-off of F, compared
-// with those of linear elasticity, which takes the rotation for strain.
+// Rigid motions cause no strain: forces are as small as the round-off of F,
+// relative to those of linear elasticity, which takes the rotation for strain.
 TEST_P(BubblesNonlinear, RigidMotionGivesNoForce)
 {
   Elasticity elasticity = elasticity_of(body, law.law);
@@ -138,14 +137,15 @@ TEST_P(BubblesNonlinear, RigidMotionGivesNoForce)
       EXPECT_GT(reference, 1.);
       EXPECT_LE(norm(force(elasticity, u)), 1e-12 * reference);
       EXPECT_LE(elasticity.state(u).energy, 1e-24 * reference);
-      // The force on its own, too, with the rotations that there are.
+      // internal_force() alone gives no force either, with the rotations
+      // computed before.
       Vector f(body.state.u);
       elasticity.internal_force(f, u);
       EXPECT_LE(norm(f), 1e-12 * reference);
     }
 }
 
-// As in rotations.cc for the other elements.
+// This test is like that in rotations.cc for the other elements.
 TEST_P(BubblesNonlinear, ForceIsTheGradientOfTheEnergy)
 {
   Elasticity   elasticity = elasticity_of(body, law.law);
@@ -202,8 +202,8 @@ TEST_P(BubblesNonlinear, ConsistentTangentIsTheDerivative)
   EXPECT_LE(largest, 1e-6);
 }
 
-// The sweep of explicit dynamics does what its parts do one after another, to
-// the round-off of sums in another order.
+// The sweep of explicit dynamics gives the same as its parts one after another,
+// to the round-off of sums in another order.
 TEST_P(BubblesNonlinear, ExplicitStep)
 {
   Elasticity elasticity = elasticity_of(body, law.law);
@@ -241,8 +241,8 @@ INSTANTIATE_TEST_SUITE_P(Placements,
                          testing::Range<unsigned int>(0,
                                                       nonlinear_laws().size()));
 
-// The volume of the displaced body by its surface is the integral of det F,
-// whatever the bubbles do: det F has degree 9, as has the rule.
+// The volume of the displaced body, computed from its surface, is the integral
+// of det F for any bubbles: det F has degree 9, and the rule is exact for it.
 TEST(Bubbles, DisplacedVolume)
 {
   MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2),
@@ -270,8 +270,8 @@ TEST(Bubbles, DisplacedVolume)
               1e-12);
 }
 
-// The rule leaves no cell soft: its stiffness has the six rigid motions in its
-// kernel and nothing else.
+// The rule leaves no mode without energy: the kernel of a cell's stiffness
+// consists of the six rigid motions.
 TEST(Bubbles, NoZeroEnergyModes)
 {
   const ReferenceElement           reference(Element::quadratic_with_bubbles());
@@ -299,9 +299,9 @@ TEST(Bubbles, NoZeroEnergyModes)
 
 namespace
 {
-  // Relative error of the lowest eigenvalue of K v = lambda M v for a bar of
-  // length 1 that slides along its sides, without Poisson's effect, held at one
-  // end: E / rho (pi / 2)^2, from inverse iteration.
+  // The relative error of the lowest eigenvalue of K v = lambda M v, from
+  // inverse iteration, for a bar of length 1 held at one end that slides along
+  // its sides, without Poisson's effect. Exact: E / rho (pi / 2)^2.
   double
   eigenvalue_error(const std::string &mass, const unsigned int n)
   {
@@ -334,7 +334,7 @@ namespace
         dealii::SolverControl    control(5000, 1e-12 * Mv.l2_norm());
         dealii::SolverCG<Vector> cg(control);
         cg.solve(A, x, Mv, jacobi);
-        // x K x / x M x, with K x = M v.
+        // The Rayleigh quotient x K x / x M x, with K x = M v.
         ghosted.zero_out_ghost_values();
         ghosted.copy_locally_owned_data_from(x);
         ghosted.update_ghost_values();
@@ -348,8 +348,8 @@ namespace
   }
 } // namespace
 
-// Eigenvalues have order 2p = 4 with the consistent mass, and with the one by
-// quadrature at the nodes; diagonal scaling loses that.
+// Eigenvalues have order 2p = 4 with the consistent mass, and with that of
+// quadrature at the nodes; with diagonal scaling the order is lower.
 TEST(Bubbles, OrderOfEigenvalues)
 {
   for (const auto &[mass, least] :

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Operators on curved cells, in meshes that have straight ones, too. Where a
-// test says "exact", polynomials are integrated by rules of their degree.
+// Operators on curved cells, in meshes with straight cells, too. Where a test
+// says "exact", polynomials are integrated by rules of their degree.
 
 #include <corotet/discretization/coarser_nodes.h>
 #include <corotet/laws/corotational.h>
@@ -58,15 +58,15 @@ namespace
     return result;
   }
 
-  // What a law has at a point.
+  // The results of a law at a point.
   struct AtPoint
   {
     Tensor<2, 3> P;
     double       energy_density, von_mises;
   };
 
-  // Linear and corotational elasticity by formulas that know the rotation R,
-  // where the law has to find it; other laws by themselves.
+  // Linear and corotational elasticity by formulas with the given rotation R,
+  // which the law itself has to compute; other laws by their own functions.
   AtPoint
   at_point(const NamedLaw          &named,
            const IsotropicMaterial &m,
@@ -93,7 +93,7 @@ protected:
   MovingBody body{half_curved_box(GetParam().q), body_text(GetParam().element)};
 };
 
-// Both kinds of cells are there, and the batches know.
+// The mesh has both straight and curved cells.
 TEST_P(CurvedCells, MeshIsMixed)
 {
   unsigned int n = 0;
@@ -103,10 +103,10 @@ TEST_P(CurvedCells, MeshIsMixed)
   EXPECT_EQ(body.discretization.n_global_cells(), 80u);
 }
 
-// An affine deformation F x is in the space. Its stress P is constant, so the
-// internal force is that of the tractions P n on the surface, inside it is
-// zero, and the energy is the volume times a constant: all exact. A rigid
-// motion has P = 0; the force is compared with that of a stretch.
+// The space contains affine deformations F x. Their stress P is constant, so
+// the internal force is that of tractions P n on the surface, zero inside, and
+// the energy is the volume times a constant: all exact. A rigid motion has P =
+// 0; the force is compared with that of a stretch.
 TEST_P(CurvedCells, PatchTest)
 {
   const auto        &reference = body.reference;
@@ -163,9 +163,9 @@ TEST_P(CurvedCells, PatchTest)
 }
 
 // Where the force has an energy it is its gradient, and the consistent tangent
-// is the derivative of the force: central differences with errors of h^2 and
-// of round-off over h. The tangent with frozen rotations is that of linear
-// elasticity in the rotated frame: symmetric.
+// is the derivative of the force: central differences with errors of h^2 and of
+// round-off over h. The tangent with frozen rotations is that of linear
+// elasticity in the rotated frame, so symmetric.
 TEST_P(CurvedCells, Derivatives)
 {
   const double h = 1e-5;
@@ -222,8 +222,8 @@ TEST_P(CurvedCells, Derivatives)
     }
 }
 
-// A by the kernels, as a matrix, and from its parts; its diagonal; with the
-// mass that there is.
+// The operator A by kernels, as a matrix, and as the sum of stiffness and mass;
+// also its diagonal.
 TEST_P(CurvedCells, EffectiveOperator)
 {
   Elasticity elastic =
@@ -253,7 +253,7 @@ TEST_P(CurvedCells, EffectiveOperator)
 }
 
 // Coarser forms are Galerkin projections P^T A P, by kernels in double and
-// single precision and as a matrix: they share the points of the finest one.
+// single precision and as a matrix: they use the finest element's points.
 TEST_P(CurvedCells, CoarserForms)
 {
   const Element element = GetParam().element;
@@ -262,7 +262,7 @@ TEST_P(CurvedCells, CoarserForms)
   elastic.update_rotations(displacement(body, states[1], 1., 1));
   const Mass        &mass = body.mass;
   const CoarserNodes coarser(body.discretization);
-  // The mass of bubbles is diagonal, that of coarser elements is not.
+  // The mass is diagonal with bubbles, but not for coarser elements.
   const double c_M = element.has_bubbles() ? 0 : 500;
 
   CellwiseOperator<double> fine(body.discretization, {}), coarse(coarser, {});
@@ -298,7 +298,7 @@ TEST_P(CurvedCells, CoarserForms)
   EXPECT_LE(largest_difference(z, y), 1e-13 * y.linfty_norm());
 }
 
-// Rows of the mass matrix sum up to the integrals of the functions, and these
+// The rows of the mass matrix sum to the integrals of the functions, which sum
 // to the volume; a lumped mass has the same sum. All exact.
 TEST_P(CurvedCells, Mass)
 {
@@ -330,8 +330,8 @@ TEST_P(CurvedCells, Mass)
     }
 }
 
-// Straight cells that are described as curved ones give what straight ones do,
-// to round-off; with a rotation for each point if these are the same points.
+// Straight cells that are described as curved give the same results, to
+// round-off; with a rotation for each point only if they have the same points.
 TEST_P(CurvedCells, StraightMaps)
 {
   const Element    element  = GetParam().element;
@@ -352,7 +352,7 @@ TEST_P(CurvedCells, StraightMaps)
   for (const auto &[name, text, law] : all_laws())
     {
       Elasticity e = elasticity_of(a, law), d = elasticity_of(b, law);
-      // The rule of curved cells has more points, which matters where the
+      // The rule for curved cells has more points, so results differ where the
       // integrand is not a polynomial.
       if (!law->is_linear() && !law->has_cell_rotation() &&
           !element.has_bubbles())

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Derivatives at quadrature points by way of their Bernstein form against those
-// of the shape functions, and the transpose of both.
+// Derivatives at quadrature points from their Bernstein form, compared with
+// those of the shape functions, and the transposes.
 
 #include <corotet/discretization/reference_element.h>
 #include <corotet/operators/derivative_form.h>
@@ -18,8 +18,8 @@ namespace
 {
   using V = Simd<double>;
 
-  // Some hundred products of numbers of size one, of which derivatives of
-  // degree 3 are up to ten times as large.
+  // The tolerance: some hundred products of numbers of size one; for degree 3,
+  // derivatives are up to ten times as large.
   constexpr double tolerance = 1e-13;
 
   template <int n>
@@ -75,7 +75,7 @@ namespace
       }
   }
 
-  /// For the rules of straight and of curved cells.
+  /// Compares the forms for the rules of straight and of curved cells.
   template <int n>
   void
   compare(const Element element)

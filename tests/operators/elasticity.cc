@@ -41,11 +41,10 @@ namespace
 class ElasticityTest : public testing::TestWithParam<unsigned int>
 {};
 
-// A rigid motion strains nothing. The same rotation taken as a displacement of
-// linear elasticity gives the force to compare with. That is quadratic in the
-// angle, while the strain of corotational elasticity carries the round-off of
-// F, some 1e-16, whatever the angle: so small angles are compared with the
-// force at an angle of 0.1.
+// A rigid motion causes no strain. The forces are compared with those of linear
+// elasticity for the same displacement, which are quadratic in the angle. The
+// strain of corotational elasticity has the round-off of F, some 1e-16, at any
+// angle: so small angles are compared with the force at an angle of 0.1.
 TEST_P(ElasticityTest, RigidMotionGivesNoForce)
 {
   const SerialMesh mesh = box("1, 2, 1", "2, 3, 2", 0.2);
@@ -88,9 +87,8 @@ TEST_P(ElasticityTest, RigidMotionGivesNoForce)
     }
 }
 
-// The matrix, assembled from blocks with rotated gradients, equals the action
-// of the tangent, computed by the cell kernel; with mass, and in rows that
-// other ranks share.
+// The matrix, assembled from blocks with rotated gradients, equals the tangent
+// as the cell kernel applies it; also with mass, and in rows that ranks share.
 TEST_P(ElasticityTest, MatrixEqualsTangent)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
@@ -122,7 +120,7 @@ TEST_P(ElasticityTest, MatrixEqualsTangent)
     }
 }
 
-// Prescribed unknowns are cut out symmetrically, on every rank.
+// Prescribed unknowns are decoupled in rows and columns, on every rank.
 TEST_P(ElasticityTest, PrescribedUnknownsAreDecoupled)
 {
   MovingBody        body(box("1, 1, 1", "2, 2, 2"),
@@ -164,8 +162,8 @@ TEST_P(ElasticityTest, LinearEnergy)
 }
 
 // With degree 1, R is constant in the cell and the corotational force is the
-// gradient of the energy (theory: both placements of R coincide): central
-// differences, with error O(h^2) and round-off 1e-16 / h.
+// gradient of the energy (both placements of R coincide): compared with central
+// differences, of error O(h^2) and round-off 1e-16 / h.
 TEST(Elasticity, LinearElementsHaveAnEnergy)
 {
   MovingBody body(box("1, 2, 1", "1, 2, 1", 0.), law_text(1, "corotational"));
@@ -217,12 +215,12 @@ TEST_P(ElasticityTest, DegenerateCellsAreCounted)
   const ElasticState state =
     body.elasticity.state(body.system.equation().displacement());
   EXPECT_EQ(state.degenerate_cells, 5u);
-  // Neither side is inside out.
+  // A flat cell is not counted as inverted.
   EXPECT_EQ(state.inverted_cells, 0u);
 }
 
-// The rotations that preconditioners use change nothing of what the law's own
-// points have counted with the force.
+// Rotations computed for preconditioners do not change what the law has counted
+// at its points while it computed the force.
 TEST_P(ElasticityTest, CountsAreThoseOfTheForce)
 {
   for (const std::string type : {"corotational", "Saint Venant-Kirchhoff"})
@@ -246,8 +244,8 @@ TEST_P(ElasticityTest, CountsAreThoseOfTheForce)
     }
 }
 
-// The sweep of explicit dynamics does what its parts do one after another, to
-// the round-off of sums in another order.
+// The sweep of explicit dynamics gives the same as its parts one after another,
+// to the round-off of sums in another order.
 TEST_P(ElasticityTest, ExplicitStep)
 {
   MovingBody body(box("1, 2, 1", "2, 3, 2", 0.2),

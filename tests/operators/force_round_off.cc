@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The estimate of what round-off makes of elastic forces. A translation changes
-// no force, so all that it changes is round-off: the estimate must lie above
-// that, since Newton's method would never end, and not far above, since it
-// accepts residuals of that size. Of one rounding of each displacement the
-// estimate is some ten times the effect: time steps add up many.
+// The estimate of the round-off of elastic forces. A translation does not
+// change forces, so any change is round-off. The estimate must lie above it, or
+// Newton's method would not end, and not far above, since Newton's method
+// accepts residuals of that size. It is some ten times the effect of one
+// rounding of each displacement, since time steps add up many.
 
 #include <corotet/operators/force_round_off.h>
 
@@ -20,7 +20,8 @@ using dealii::Tensor;
 
 namespace
 {
-  // Force of a smooth displacement plus a translation, less that without it.
+  // The force of a smooth displacement plus a translation, less the force
+  // without the translation.
   struct Noise
   {
     double measured;
@@ -67,7 +68,7 @@ namespace
 class ForceRoundOffTest : public testing::TestWithParam<Element>
 {};
 
-// From a tenth of the size of a cell to a million millions of them.
+// Translations are from a tenth of the size of a cell to 1e12 times that size.
 TEST_P(ForceRoundOffTest, HoldsAndIsSharp)
 {
   double smallest = 1, largest = 0;
@@ -85,7 +86,8 @@ TEST_P(ForceRoundOffTest, HoldsAndIsSharp)
         }
   report("smallest measured / estimated", smallest);
   report("largest measured / estimated", largest);
-  // Translations of regular meshes may round all displacements alike.
+  // In regular meshes a translation may round all displacements in the same
+  // way.
   EXPECT_GE(largest, 0.03);
 }
 

@@ -12,8 +12,8 @@
 
 namespace corotet::tests
 {
-  /// Numbers of size one without a pattern, other ones in each lane and for
-  /// each @p i.
+  /// Numbers of size one without a pattern, which differ between lanes and
+  /// between values of @p i.
   inline Simd<double>
   some_numbers(const int i)
   {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Mass matrices against the exact shares of theory.md (HRZ and row sums), and
-// total mass.
+// Mass matrices compared with the exact shares in theory.md (HRZ and row sums),
+// and the total mass.
 
 #include <corotet/operators/mass.h>
 
@@ -29,8 +29,8 @@ namespace
   }
 } // namespace
 
-// Diagonal scaling: vertices 1/4; 1/36, edges 4/27; 1/193, 27/772, faces
-// 27/193.
+// The shares of diagonal scaling: vertices 1/4 for degree 1; 1/36 and edges
+// 4/27 for degree 2; 1/193, edges 27/772 and faces 27/193 for degree 3.
 TEST(Mass, DiagonalScalingShares)
 {
   const auto p1 = sorted_shares(1, MassType::diagonal_scaling);
@@ -48,7 +48,8 @@ TEST(Mass, DiagonalScalingShares)
                 1e-15);
 }
 
-// Row sums: 1/4 for degree 1; -1/20 (vertices) and 0 (edges) are refused.
+// Row sums are 1/4 for degree 1; for higher degrees -1/20 (vertices) and 0
+// (edges) occur, which are refused.
 TEST(Mass, RowSumsAreRefusedForDegree2And3)
 {
   for (const double share : sorted_shares(1, MassType::row_sum))
@@ -65,7 +66,7 @@ TEST(Mass, RowSumsAreRefusedForDegree2And3)
             "degree 1)");
 }
 
-// Quadrature at the nodes, with the weights that it is known for.
+// The shares of quadrature at the nodes are its published weights.
 TEST(Mass, NodalQuadratureShares)
 {
   const std::vector<double> shares =
@@ -85,9 +86,9 @@ class MassTest
   : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
 {};
 
-// The box has 2 m^3 of 3 kg/m^3. M times a constant acceleration is the total
-// mass; the consistent M of linear fields is exact, as is the quadrature at the
-// nodes, of degree 3: int rho x y over the box.
+// The box has 2 m^3 of 3 kg/m^3. M times a constant acceleration gives the
+// total mass. The consistent M is exact for linear fields, and so is quadrature
+// at the nodes, of degree 3: int rho x y over the box.
 TEST_P(MassTest, TotalAndMoments)
 {
   const auto &[degree, type] = GetParam();
@@ -106,7 +107,7 @@ TEST_P(MassTest, TotalAndMoments)
     smallest = std::min(smallest, mass.diagonal().local_element(i));
   EXPECT_GT(smallest, 0.);
 
-  // What is lumped without regard to moments is not exact here.
+  // Masses that are lumped without regard to moments are not exact here.
   if (type != "consistent" && type != "nodal quadrature")
     return;
   const Vector x = body.interpolate(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Nodes, one for each material that meets there.
+// Copies of nodes, one for each material that meets at the node.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/operators/material_nodes.h>
@@ -12,8 +12,9 @@
 
 using namespace corotet;
 
-// Six numbers of each copy must be numbers that deal.II has, of 32 bits in
-// Debian's: a body of 300 million cubic cells, which is allowed, has more.
+// deal.II must be able to number three unknowns and three more for each copy,
+// with 32 bits in Debian's build: a body of 300 million cubic cells, which is
+// otherwise allowed, has too many.
 TEST(MaterialNodes, MoreThanNumbersCount)
 {
   const std::uint64_t largest =

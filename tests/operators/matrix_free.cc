@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is computed cell by cell equals what is assembled, and both equal the
-// integrals as deal.II's FEValues computes them.
+// Cell-wise products equal those with assembled matrices, and both equal
+// integrals computed with deal.II's FEValues.
 
 #include <corotet/material/corotational.h>
 #include <corotet/operators/effective_operator.h>
@@ -44,8 +44,8 @@ namespace
            displacements("x-min: 0; free; 0, z-max: free; 0; 0");
   }
 
-  // A value in [-1, 1] without pattern that depends on place and component
-  // only: the same on any number of ranks.
+  // Values in [-1, 1] without a pattern that depend on position and component
+  // only, so they are the same on any number of ranks.
   Tensor<1, 3>
   noise(const Point<3> &x)
   {
@@ -59,7 +59,7 @@ namespace
     return result;
   }
 
-  // Rotates every cell by another angle, up to a half turn.
+  // A displacement that rotates every cell by another angle, up to a half turn.
   Tensor<1, 3>
   crumple(const Point<3> &x)
   {
@@ -112,7 +112,8 @@ TEST_P(MatrixFreeTest, EqualsMatrix)
     }
 }
 
-// The steps of a smoother: residual, and update of the solution in the sweep.
+// The steps of a smoother: the residual, and the update of the solution in the
+// same sweep.
 TEST_P(MatrixFreeTest, SmootherSteps)
 {
   A.update(0.7, 3e3);
@@ -156,7 +157,7 @@ TEST_P(MatrixFreeTest, SmootherSteps)
   EXPECT_LE(largest_difference(x, sum), 1e-13 * sum.linfty_norm());
 }
 
-// In single precision, to the round-off of sums of that many terms.
+// The same in single precision, to the round-off of sums of that many terms.
 TEST_P(MatrixFreeTest, SinglePrecision)
 {
   A.update(0.7, 3e3);
@@ -203,8 +204,8 @@ TEST_P(MatrixFreeTest, SinglePrecision)
 
 namespace
 {
-  // Cells by the unknowns of their vertices, as the order of deal.II is another
-  // one.
+  // Cells by the unknowns of their vertices, as deal.II has another order of
+  // cells.
   std::map<std::array<dealii::types::global_dof_index, 4>, unsigned int>
   cells_by_vertices(const Discretization &discretization)
   {
@@ -228,7 +229,7 @@ TEST_P(MatrixFreeTest, EqualsFEValues)
   const auto       &disc       = body.discretization;
   const Elasticity &elasticity = body.elasticity;
   const auto       &fe         = disc.finite_element();
-  // Exact; with bubbles the one that defines the stiffness.
+  // An exact rule; with bubbles, the one that defines the stiffness.
   const dealii::QWitherdenVincentSimplex<3> rule(
     disc.element().has_bubbles() ? 3 : 4);
   dealii::FEValues<3>                      values(disc.mapping(),
@@ -289,7 +290,7 @@ TEST_P(MatrixFreeTest, EqualsFEValues)
   elasticity.apply_tangent_by_quadrature(product, v);
   EXPECT_LE(largest_difference(product, tangent),
             1e-13 * tangent.linfty_norm());
-  // The force on its own equals that of the sweep that rotates, too.
+  // internal_force() gives the same as the sweep that also computes rotations.
   elasticity.internal_force(product, u);
   EXPECT_LE(largest_difference(product, force), 1e-13 * force.linfty_norm());
   if (GetParam().mass == "consistent")

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Values at the points of every kind of orbit against Bernstein's polynomials,
-// the transpose of that, and the order of points in orbits.
+// Values at the points of every kind of orbit compared with Bernstein
+// polynomials, the transpose, and the order of points in orbits.
 
 #include <corotet/discretization/bernstein.h>
 #include <corotet/discretization/point_orbits.h>
@@ -24,7 +24,7 @@ namespace
   using V    = Simd<double>;
   using Kind = PointOrbit::Kind;
 
-  /// One of each kind, with a weight of its own.
+  /// One orbit of each kind, each with its own weight.
   std::vector<PointOrbit>
   some_orbits()
   {
@@ -62,10 +62,12 @@ namespace
     return result;
   }
 
-  // Some dozen products of numbers up to three.
+  // The tolerance is the round-off of some dozen products of numbers up to
+  // three.
   constexpr double tolerance = 1e-14;
 
-  /// For derivatives of degree p, which are of degree p - 1.
+  /// Compares forms for derivatives of degree p functions, which have degree p
+  /// - 1.
   template <int p>
   void
   compare()
@@ -155,7 +157,7 @@ TEST(PointOrbits, AreFoundInAnyOrder)
       }
   EXPECT_EQ(q, points.size());
 
-  // A point less, and a weight that is another.
+  // Points are refused if one is missing, or if a weight differs in an orbit.
   points.pop_back();
   weights.pop_back();
   auto cut         = points;

@@ -19,7 +19,7 @@ namespace corotet::tests
     return element_text(element) + law.text + material_text(1e3, 0.4);
   }
 
-  // The body's elasticity with that law.
+  // The elasticity of the body with another law.
   inline Elasticity
   elasticity_of(const MovingBody                         &body,
                 const std::shared_ptr<const MaterialLaw> &law)
@@ -27,8 +27,8 @@ namespace corotet::tests
     return {body.discretization, body.reference, body.materials, law};
   }
 
-  // A state of the body: a rotation with any angle up to a half turn after a
-  // stretch, plus noise.
+  // A state of the body: stretches, then a rotation by any angle up to a half
+  // turn, plus noise.
   struct RandomState
   {
     std::string          name;
@@ -51,7 +51,8 @@ namespace corotet::tests
     {"inverted", dealii::Tensor<1, 3>({1.1, 0.9, -0.3}), 0.1, 0.01, 0.05},
     {"calm", dealii::Tensor<1, 3>({1.2, 0.9, 0.95}), 0.1, 0.002, 0.1}};
 
-  /// Far from inside out at each point of each cell, so one of all laws.
+  /// A state far from inverted at each point of each cell, so that all laws
+  /// have it.
   inline const RandomState &calm = states.back();
 
   inline Vector
@@ -71,7 +72,7 @@ namespace corotet::tests
     const dealii::Tensor<2, 3> Q =
       rotation_about(dealii::Tensor<1, 3>({1., 2., 1.}), 1.);
     const dealii::Tensor<2, 3> F = R * Q * S * transpose(Q);
-    // By global number of the component, so that ranks agree.
+    // Noise is numbered by global unknowns, so that ranks agree.
     std::vector<double> noise(std::size_t(3) *
                               body.discretization.n_global_nodes());
     for (double &n : noise)
@@ -89,8 +90,8 @@ namespace corotet::tests
     return u;
   }
 
-  // Whether the law has an energy in that state and all near it: some have none
-  // where cells are inside out, and are as steep as one likes before.
+  // Whether the law has an energy in that state and near it: some laws have
+  // none where cells are inverted, and are arbitrarily steep before.
   inline bool
   has_state(Elasticity &elasticity, const Vector &u)
   {
@@ -111,7 +112,7 @@ namespace corotet::tests
     return f;
   }
 
-  // u + factor v, with ghosts up to date.
+  // The vector u + factor v, with current ghost values.
   inline Vector
   moved(const Vector &u, const double factor, const Vector &v)
   {

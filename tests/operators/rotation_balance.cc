@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Balance of a single cell: net force and torque of its internal force where
-// the rotation is taken, symmetry of its tangents, and the terms these are the
-// sum of.
+// The balance of a single cell: net force and torque of its internal force for
+// each placement of the rotation, the symmetry of its tangents, and the terms
+// that make up the tangents.
 
 #include <deal.II/lac/full_matrix.h>
 
@@ -43,7 +43,7 @@ namespace
       , elasticity(elasticity_of(*this, law.law))
     {}
 
-    // f = (K + (frozen_factor - 1) K_frozen + c_M M) v at the last
+    // The product f = (K + (frozen_factor - 1) K_frozen + c_M M) v at the last
     // linearization.
     Vector
     product(const Vector &v,
@@ -57,7 +57,8 @@ namespace
       return f;
     }
 
-    // f = K v with frozen rotations at u, where forces have been evaluated.
+    // The product f = K v with rotations frozen at u, where forces were
+    // evaluated.
     Vector
     frozen_product(const Vector &u, const Vector &v)
     {
@@ -75,8 +76,8 @@ namespace
     Elasticity elasticity;
   };
 
-  // Of the internal force of u about the centroid of the nodes, relative to the
-  // sums of |f_i| and of |x_i| |f_i|.
+  // Net force and torque of the internal force at u, about the centroid of the
+  // nodes, relative to the sums of |f_i| and of |x_i| |f_i|.
   struct Balance
   {
     double force, torque;
@@ -115,7 +116,8 @@ namespace
             sum(net_torque).norm() / sum(torques)};
   }
 
-  // Of the elimination without pivoting: positive for positive matrices.
+  // The smallest pivot of the elimination without pivoting: it is positive for
+  // positive matrices.
   double
   smallest_pivot(dealii::FullMatrix<double> A)
   {
@@ -130,8 +132,8 @@ namespace
     return smallest;
   }
 
-  // A bar along y bent by a right angle over its unit length, stretched by some
-  // 10 % along and across, by an amount that varies.
+  // A bar along y, bent by a right angle over its unit length and stretched by
+  // some 10 % along and across, by an amount that varies.
   Tensor<1, 3>
   bending(const Point<3> &x)
   {
@@ -159,12 +161,12 @@ protected:
   unsigned int degree = std::get<0>(GetParam());
   NamedLaw     law    = nonlinear_laws()[std::get<1>(GetParam())];
   std::string  name   = law.name;
-  // One rotation per cell, and more than a constant gradient.
+  // Whether the law has one rotation per cell while gradients vary in it.
   bool has_no_energy = !law.law->has_energy(degree);
 };
 
-// To round-off: strains are 1e-2 and more, and sums of some ten terms of 1e-16
-// are made of terms of that size.
+// Force and torque vanish to round-off: strains are 1e-2 and more, and errors
+// of 1e-16 add up in sums of some ten terms of that size.
 TEST_P(RotationBalance, ForceAndTorqueOfACell)
 {
   Cell   cell(degree, law);
@@ -191,9 +193,10 @@ TEST_P(RotationBalance, ForceAndTorqueOfACell)
     EXPECT_LE(largest_torque, 1e-13);
 }
 
-// The rotation varies by O(h) in a cell, linearly about the centre at first, so
-// that the torque of what its skew part does to the stress, which varies by
-// O(h) itself, averages to O(h^2) of the forces, whatever the degree.
+// In a cell the rotation varies by O(h), at first linearly about the centre,
+// and so does the stress. The torque comes from the skew part of the rotation's
+// variation times the stress, so it averages to O(h^2) of the forces, for any
+// degree.
 TEST_P(RotationBalance, TorqueOfASmoothDeformation)
 {
   double last = 0;
@@ -219,7 +222,7 @@ TEST_P(RotationBalance, TorqueOfASmoothDeformation)
     }
 }
 
-// The derivative of a gradient is symmetric.
+// The tangent is the derivative of a gradient, so it is symmetric.
 TEST_P(RotationBalance, SymmetryOfTheConsistentTangent)
 {
   Cell         cell(degree, law);
@@ -251,8 +254,8 @@ TEST_P(RotationBalance, SymmetryOfTheConsistentTangent)
     EXPECT_LE(asymmetry, 1e-13);
 }
 
-// R K0 R^T with any rotations is a sum of squares. For degree 1 all placements
-// have the same.
+// R K0 R^T with any rotations is a sum of squares. For degree 1 it is the same
+// for all placements of rotations.
 TEST_P(RotationBalance, FrozenTangentIsPositive)
 {
   Cell               cell(degree, law);
@@ -287,7 +290,8 @@ TEST_P(RotationBalance, FrozenTangentIsPositive)
       symmetric.symmetrize();
       asymmetry =
         std::max(asymmetry, skew.frobenius_norm() / K.frobenius_norm());
-      // Round-off in a zero eigenvalue must not count.
+      // The shift keeps round-off of zero eigenvalues from making pivots
+      // negative.
       for (unsigned int i = 0; i < n; ++i)
         symmetric(i, i) += shift * K.frobenius_norm();
       smallest = std::min(smallest, smallest_pivot(symmetric));
@@ -307,7 +311,7 @@ TEST_P(RotationBalance, FrozenTangentIsPositive)
   EXPECT_GT(smallest, 0.);
 }
 
-// K_T + (c - 1) K_frozen + c_M M, term by term, each placement and tangent.
+// K_T + (c - 1) K_frozen + c_M M, term by term, for each placement and tangent.
 TEST_P(RotationBalance, TermsOfTheTangent)
 {
   Cell         cell(degree, law);
@@ -315,7 +319,7 @@ TEST_P(RotationBalance, TermsOfTheTangent)
   const Vector u = displacement(cell, states[2], 2., 5);
   force(cell.elasticity, u);
   const double c = 1.7;
-  // A mass term as large as the stiffness.
+  // The mass term is as large as the stiffness.
   Vector Mv(v);
   Mv.zero_out_ghost_values();
   cell.mass.apply(Mv, v);
@@ -330,7 +334,7 @@ TEST_P(RotationBalance, TermsOfTheTangent)
       expected.add(c - 1, frozen, c_M, Mv);
       EXPECT_LE(largest_difference(cell.product(v, c, c_M), expected),
                 1e-13 * expected.linfty_norm());
-      // The same with a lumped mass.
+      // The sum is also right with a lumped mass.
       Vector lumped(expected), sum = cell.product(v, c);
       cell.elasticity.apply_linearization(
         lumped, v, c, c_M, nullptr, &cell.mass.diagonal());

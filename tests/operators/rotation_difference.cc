@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// How far rotations differ inside of cells from those of their centres, held
-// against formulas of a motion in a plane.
+// The largest difference between rotations inside of cells and those at their
+// centres, compared with formulas for a plane motion.
 
 #include <corotet/discretization/point_geometry.h>
 #include <corotet/material/corotational.h>
@@ -29,8 +29,8 @@ namespace
     return largest_rotation_difference(body.discretization, body.reference, u);
   }
 
-  // u = (-c x z, 0, c x^2 / 2): F in the plane is {{1 - c z, -c x}, {c x, 1}},
-  // and its rotation has the angle atan2(2 c x, 2 - c z).
+  // For u = (-c x z, 0, c x^2 / 2), F in the plane is {{1 - c z, -c x}, {c x,
+  // 1}}, and its rotation has the angle atan2(2 c x, 2 - c z).
   constexpr double c = 0.3;
 
   double
@@ -40,7 +40,7 @@ namespace
   }
 } // namespace
 
-// To round-off of sums of terms of order one.
+// The difference is right to the round-off of sums of terms of order one.
 TEST(RotationDifference, BentBox)
 {
   for (const unsigned int degree : {2u, 3u})
@@ -67,7 +67,7 @@ TEST(RotationDifference, BentBox)
     }
 }
 
-// In curved cells at the points that their forces are integrated with.
+// In curved cells, rotations are taken at the points of their force integrals.
 TEST(RotationDifference, CurvedCells)
 {
   for (const unsigned int degree : {2u, 3u})
@@ -115,8 +115,8 @@ TEST(RotationDifference, CurvedCells)
     }
 }
 
-// A body at rest, and one that has turned and is stretched, have the same
-// rotation everywhere.
+// A body at rest, and one that is rotated and uniformly stretched, have the
+// same rotation everywhere.
 TEST(RotationDifference, NoneWhereRotationIsTheSame)
 {
   const MovingBody body(box("2, 1, 1", "4, 2, 2", 0.2), element_text(2));

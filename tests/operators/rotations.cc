@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Where the rotation is taken: forces, energies and exact tangents of the three
-// placements, checked against differences, symmetry and balance of each cell.
+// The placement of rotations: forces, energies and exact tangents for the three
+// placements, checked with differences, symmetry and the balance of each cell.
 
 #include <corotet/material/rotation_derivative.h>
 
@@ -21,8 +21,8 @@ protected:
   NamedLaw     law    = nonlinear_laws()[std::get<1>(GetParam())];
 };
 
-// Central differences of fourth order: with steps of 2e-4 their error is some
-// 1e-16 (h^4 / 30) of the fifth derivative, round-off 1e-13 / 2e-4.
+// Central differences of fourth order with steps of 2e-4 have an error of some
+// 1e-16 (h^4 / 30) of the fifth derivative, and round-off of 1e-13 / 2e-4.
 TEST_P(NonlinearLaws, ConsistentTangentIsTheDerivative)
 {
   MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
@@ -62,8 +62,8 @@ TEST_P(NonlinearLaws, ConsistentTangentIsTheDerivative)
   EXPECT_GT(largest, 0) << "no state was looked at";
 }
 
-// The force is the gradient of the energy, but for one rotation per cell above
-// degree 1.
+// The force is the gradient of the energy, except with one rotation per cell
+// above degree 1.
 TEST_P(NonlinearLaws, ForceIsTheGradientOfTheEnergy)
 {
   MovingBody   body(box("1, 2, 1", "2, 2, 2", 0.2), case_text(degree, law));
@@ -133,7 +133,7 @@ TEST_P(NonlinearLaws, AssembledMatrixOfACrushedBody)
 
 // Two stretches of an inverted cell may sum to zero, where the derivative of
 // its rotation is infinite: below a smallest sum it is bounded, and the cell is
-// counted, once. All cells have the same gradient here, and there are five.
+// counted once. All cells have the same gradient here, and there are five.
 TEST_P(NonlinearLaws, BoundedDerivativesAreCounted)
 {
   if (!law.name.starts_with("corotational"))

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Orders of convergence of recovered stress and of the estimate of its error.
+// Orders of convergence of the recovered stress and of its error estimate.
 
 #include <corotet/laws/linear.h>
 #include <corotet/material/stress_measures.h>
@@ -23,7 +23,7 @@ using dealii::SymmetricTensor;
 
 namespace
 {
-  // Errors in the norm of energy for the wave on n^3 cubes of five cells.
+  // Errors in the energy norm for a wave in n^3 cubes of five cells.
   struct WaveErrors
   {
     double raw, recovered, estimate;
@@ -78,16 +78,16 @@ namespace
   }
 } // namespace
 
-// Stress of a wave in the norm of energy. Theory: the raw one is of order p. On
-// these meshes, which are symmetric about their vertices, the recovered one is
-// of order p + 1 inside for odd p, a half less with the cells at the surface.
-// For p = 2 the gain is a factor rather than an order; so its effectivity, the
-// estimated error over the true one, stays near 1 and tends to 1 for odd p. See
-// the page on stress, whose figures are from finer meshes.
+// Stress of a wave in the energy norm. In theory the raw stress has order p. On
+// these meshes, which are symmetric about their vertices, the recovered stress
+// has order p + 1 inside for odd p, and a half less with the cells at the
+// surface. For p = 2 the gain is a factor rather than an order. So the
+// effectivity, the estimated error over the true one, stays near 1 for p = 2
+// and tends to 1 for odd p. The page on stress has figures from finer meshes.
 TEST(StressField, OrdersOfConvergence)
 {
   const double order_of_recovered[3] = {1.5, 2.5, 3.5};
-  // What was measured, and some room.
+  // Bounds are measured values with some room.
   const double smaller[3] = {0.25, 0.35, 0.4};
   const double off[3]     = {0.01, 0.03, 0.02};
   for (const unsigned int p : {1, 2, 3})
@@ -107,7 +107,7 @@ TEST(StressField, OrdersOfConvergence)
       EXPECT_GE(recovered, order_of_recovered[p - 1]) << p;
       EXPECT_LE(second.recovered, smaller[p - 1] * second.raw) << p;
       EXPECT_NEAR(effectivity, 1, off[p - 1]) << p;
-      // By the triangle inequality.
+      // This bound is the triangle inequality.
       EXPECT_LE(std::abs(effectivity - 1), second.recovered / second.raw) << p;
     }
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Stress at points, recovered stress and the estimate of its error: what is
-// exact, what rotations must not change, and that ranks and a choice of cells
-// make no difference.
+// Stress at points, recovered stress and its error estimate: where they are
+// exact, that rotations do not change them, and that they do not depend on
+// ranks or on the choice of cells.
 
 #include <corotet/laws/linear.h>
 #include <corotet/material/stress_measures.h>
@@ -37,7 +37,7 @@ namespace
     return {body.discretization, body.reference, body.materials, law, nullptr};
   }
 
-  // A box of two materials, stiff for x < 1, soft beyond, of distorted cells.
+  // A box of distorted cells with two materials, stiff for x < 1, soft beyond.
   SerialMesh
   two_materials()
   {
@@ -104,8 +104,9 @@ namespace
 INSTANTIATE_TEST_SUITE_P(All, StressFieldOf, elements, element_name);
 
 // The stress of a displacement of degree p is of degree p - 1 in each material:
-// the raw one is exact, so is the recovered one on both sides of an interface
-// where it jumps, and no error is found. Round-off: a few 1e-14 of the stress.
+// the raw stress is exact, the recovered one too, on both sides of an interface
+// where it jumps, and the estimated error is zero, to round-off of a few 1e-14
+// of the stress.
 TEST_P(StressFieldOf, IsExactForPolynomials)
 {
   const unsigned int p = GetParam().degree();
@@ -136,14 +137,14 @@ TEST_P(StressFieldOf, IsExactForPolynomials)
     }
   EXPECT_GT(field.error().stress_norm, 10.);
   EXPECT_LE(field.error().energy_norm, 1e-12 * field.error().stress_norm);
-  // Twice the elastic energy.
+  // The square of the norm is twice the elastic energy.
   EXPECT_NEAR(std::pow(field.error().stress_norm, 2),
               2 * body.elasticity.state(u).energy,
               1e-12 * std::pow(field.error().stress_norm, 2));
 }
 
-// A body that is turned as a whole turns its stress with it, whatever the
-// placement of rotations: sigma -> Q sigma Q^T; the estimated error remains.
+// Rotating the whole body rotates its stress, sigma -> Q sigma Q^T, for any
+// placement of rotations; the estimated error does not change.
 TEST(StressField, TurnsWithTheBody)
 {
   const Tensor<2, 3> Q = rotation_about(Tensor<1, 3>({0.3, -1., 2.}), 2.1);
@@ -175,13 +176,14 @@ TEST(StressField, TurnsWithTheBody)
     }
 }
 
-// Nor does it matter how a body at rest lies in space: where patches are small,
-// which polynomials are fitted there does not depend on the axes.
+// The recovered stress does not depend on the orientation of the body at rest
+// either: where patches are small, the choice of fitted polynomials does not
+// depend on the axes.
 TEST(StressField, DoesNotDependOnTheAxes)
 {
   const SerialMesh mesh = box("1, 1, 1", "2, 2, 1", 0.2);
-  // What the field is of a body that is turned by Q: the squares of the nodes'
-  // stresses and the error.
+  // Invariants of the field for a body rotated by Q: the sum of squares of the
+  // nodes' stresses, and the error.
   const auto squares_and_error = [&](const Tensor<2, 3> &Q,
                                      const Element      &element) {
     SerialMesh turned = mesh;
@@ -218,8 +220,8 @@ TEST(StressField, DoesNotDependOnTheAxes)
     }
 }
 
-// For degree 1 stress is constant in cells: its von Mises equivalent is what is
-// known of the centres.
+// For degree 1 the stress is constant in cells, so its von Mises equivalent is
+// that of the cell results.
 TEST(StressField, AgreesWithTheCentres)
 {
   const MovingBody body(two_materials(), element_text(1) + two_laws);
@@ -234,8 +236,8 @@ TEST(StressField, AgreesWithTheCentres)
                 1e-13 * (1 + expected[c]));
 }
 
-// Every rank computes the whole body by itself, too: the same stress at the
-// same nodes, and the same error, but for round-off.
+// Every rank also computes the whole body by itself: stress at nodes and error
+// are the same, to round-off.
 TEST(StressField, RanksMakeNoDifference)
 {
   Log                    log(MPI_COMM_SELF, true);
@@ -288,7 +290,7 @@ TEST(StressField, RanksMakeNoDifference)
 
 // A bar is clamped at one end and pulled at the other. Where its free sides
 // meet the clamped one the exact stress is infinite: the cell with the largest
-// error per volume is there, and it is ten times that of most cells.
+// error per volume is there, with ten times the error of most cells.
 TEST(StressField, FindsSingularEdges)
 {
   MovingBody   body(box("2, 1, 1", "8, 4, 4"),
@@ -329,9 +331,9 @@ TEST(StressField, FindsSingularEdges)
             body.discretization.n_global_cells() / 2);
 }
 
-// Recovered in some cells of one rank, or of some ranks, the stress is what it
-// is in all: bit by bit, as it is the same sums; again for other displacements
-// and other cells. A displacement without any symmetry.
+// Stress that is recovered in some cells of one or more ranks is that of a
+// recovery in all cells, to the last bit, as the sums are the same; also for
+// other displacements and cells. The displacement has no symmetry.
 TEST(StressField, RecoveredInSomeCells)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -354,7 +356,7 @@ TEST(StressField, RecoveredInSomeCells)
           whole.set_displacement(u);
           parts.set_displacement(u);
           whole.recover();
-          // Twice the same ones, then others; in the end none on this rank.
+          // Cells are recovered twice, then others; in the end none on rank 0.
           std::vector<unsigned int> cells;
           for (unsigned int c = run / 2; c < disc.n_owned_cells(); c += 40)
             cells.push_back(c);
@@ -375,7 +377,7 @@ TEST(StressField, RecoveredInSomeCells)
             }
           u.zero_out_ghost_values();
         }
-      // All of it after parts.
+      // After parts, the whole field is recovered.
       u.update_ghost_values();
       parts.recover();
       const std::span<const double> values{&rule.values(0, 0),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Recovered stress at the nodes of surfaces, where peaks are: more accurate
-// than the plain mean of the raw stresses there, and the same on all numbers of
+// Recovered stress at the nodes of surfaces, where peaks are: it is more
+// accurate than the plain mean of raw stresses, and the same on any number of
 // ranks, though patches reach beyond the cells that a rank has.
 
 #include <corotet/laws/linear.h>
@@ -61,7 +61,7 @@ namespace
     return result;
   }
 
-  // On how many sides of the unit cube a point is.
+  // The number of sides of the unit cube that contain a point.
   unsigned int
   n_sides(const Point<3> &x)
   {
@@ -94,9 +94,9 @@ namespace
   }
 } // namespace
 
-// A wave in a cube of distorted cells. Bounds are what was measured and a tenth
-// more; with one-sided patches or those of inner vertices alone, errors on
-// edges are larger than those of the plain mean.
+// A wave in a cube of distorted cells. Bounds are measured values plus a tenth;
+// with one-sided patches, or only those of inner vertices, errors on edges
+// would be larger than those of the plain mean.
 TEST(StressOnSurfaces, BetterThanTheMeanOfRawStress)
 {
   const std::array<std::string, 3> kinds{{"inside", "in faces", "on edges"}};

@@ -14,7 +14,7 @@ using namespace corotet::tests;
 using dealii::Point;
 using dealii::Tensor;
 
-// However mass is made, it is in the tangent once, and not at all in statics:
+// The tangent contains the mass, of any kind, once, and not at all in statics:
 // J(c_M) v - J(0) v = c_M M v where nothing is prescribed. c_M makes both parts
 // of the same size, so that little cancels.
 TEST(TangentOperator, HasTheMassOnce)
@@ -82,7 +82,8 @@ namespace
     Vector            w = body.interpolate([](const Point<3> &x) {
       return Tensor<1, 3>({x[2], std::cos(2 * x[1]), x[0] - x[1] * x[1]});
     });
-    // Where J has the diagonal of A, and the matrix its own.
+    // On prescribed unknowns J has the diagonal of A, and its matrix another
+    // one.
     for (const unsigned int i : A.prescribed_unknowns())
       if (i < v.locally_owned_size())
         {
@@ -106,18 +107,18 @@ namespace
                     1e-13 * norm(w) * norm(expected));
         if (!J.is_symmetric())
           continue;
-        // Sums of some hundred terms in another order.
+        // The round-off of sums of some hundred terms in another order.
         EXPECT_LE(largest_difference(found, expected), 1e-13 * norm(expected));
       }
-    // The matrix of A is there again.
+    // The matrix of A, which J has used, is restored.
     A.vmult(expected, v);
     A.matrix().vmult(found, v);
     EXPECT_LE(largest_difference(found, expected), 1e-13 * norm(expected));
   }
 } // namespace
 
-// The assembled matrix is what the operator applies, or its symmetric part, of
-// straight and of curved cells, with either mass, on any number of ranks.
+// The assembled matrix equals the operator, or its symmetric part, for straight
+// and curved cells, with either mass, on any number of ranks.
 TEST(TangentOperator, Matrix)
 {
   for (const NamedLaw &law : nonlinear_laws())

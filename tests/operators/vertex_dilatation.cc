@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Mean dilatation at the vertices, of a body of two materials.
+// Mean dilatation at the vertices, in a body of two materials.
 
 #include <corotet/operators/error_norms.h>
 #include <corotet/operators/tangent_operator.h>
@@ -19,7 +19,7 @@ using dealii::Tensor;
 
 namespace
 {
-  // Of distorted cells, some of which are of a second material.
+  // A mesh of distorted cells, some of which have a second material.
   SerialMesh
   mesh_of_two()
   {
@@ -42,8 +42,8 @@ namespace
   class VertexDilatations : public testing::TestWithParam<std::string>
   {};
 
-  // Calls function(x, weight) for the places x = u + h v of a difference as in
-  // NonlinearLaws.
+  // Calls function(x, weight) for the points x = u + h v of the differences
+  // that NonlinearLaws uses.
   template <typename Function>
   void
   for_fourth_order(const Vector &u, const Vector &v, const Function &function)
@@ -121,8 +121,8 @@ TEST_P(VertexDilatations, TangentIsTheDerivative)
   EXPECT_LE(largest, 1e-6);
 }
 
-// Forces have no sum and no moment, and turn with the body: its energy does not
-// change.
+// Forces have no sum and no moment, and rotate with the body; the energy does
+// not change.
 TEST(VertexDilatation, IsObjective)
 {
   MovingBody         body(mesh_of_two(), case_of("corotational"));
@@ -144,7 +144,7 @@ TEST(VertexDilatation, IsObjective)
   const Vector f      = force(elasticity, u);
   const double energy = elasticity.state(u).energy;
   const Vector g      = force(elasticity, turned);
-  // Numbers of size ten lose a digit and a half.
+  // Coordinates of size ten cost one and a half digits.
   EXPECT_NEAR(elasticity.state(turned).energy, energy, 1e-12 * energy);
   Tensor<1, 3> sum, moment;
   double       largest = 0;
@@ -174,8 +174,8 @@ TEST(VertexDilatation, IsObjective)
     }
 }
 
-// Where each material has one dilatation, that of the vertices is the same: so
-// are force, energy and stress.
+// If each material has a uniform dilatation, that at the vertices is the same:
+// so are force, energy and stress.
 TEST_P(VertexDilatations, UniformDilatationIsThatOfTheCells)
 {
   MovingBody   of_vertices(mesh_of_two(), case_of(GetParam()));
@@ -197,8 +197,8 @@ TEST_P(VertexDilatations, UniformDilatationIsThatOfTheCells)
     EXPECT_LE((of_a[i] - of_b[i]).norm(), 1e-12 * of_b[i].norm());
 }
 
-// The stress that is shown is that of the force: both do the same work. That of
-// the corotational law is shown as R sigma R^T, and works as R sigma.
+// The stress in results is that of the force: both do the same work. The
+// corotational law's stress is R sigma R^T in results, and R sigma in forces.
 TEST_P(VertexDilatations, StressIsThatOfTheForce)
 {
   MovingBody   body(mesh_of_two(), case_of(GetParam()));
@@ -227,8 +227,8 @@ TEST_P(VertexDilatations, StressIsThatOfTheForce)
               1e-12 * std::abs(power));
 }
 
-// Of a smooth displacement without change of volume the estimated error is near
-// the true one however large lambda is.
+// For a smooth displacement without change of volume the estimated error is
+// near the true one however large lambda is.
 TEST(VertexDilatation, ErrorIsEstimated)
 {
   for (const double ratio : {0.3, 0.4999})
@@ -256,13 +256,13 @@ TEST(VertexDilatation, ErrorIsEstimated)
                                        body.elasticity.vertex_dilatation())
                              .error.energy;
       report("estimated over true error", estimated / found);
-      // What is left is that of any recovery on so coarse a mesh.
+      // The remaining difference is usual for so coarse a mesh.
       EXPECT_NEAR(estimated / found, 1, 0.2);
     }
 }
 
-// Operator, matrix and diagonal are the same thing, with supports and with mass
-// of either kind, of both tangents.
+// Operator, matrix and diagonal agree, with supports, with mass of either kind,
+// and for both tangents.
 TEST_P(VertexDilatations, MatrixIsTheOperator)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
@@ -306,7 +306,7 @@ TEST_P(VertexDilatations, MatrixIsTheOperator)
             EXPECT_LE(largest_difference(found, product),
                       1e-13 * norm(product));
           }
-      // Prescribed unknowns are on their own.
+      // Prescribed unknowns are decoupled from the others.
       v = random_direction(body);
       v.zero_out_ghost_values();
       A.vmult(product, v);
@@ -321,7 +321,7 @@ TEST_P(VertexDilatations, MatrixIsTheOperator)
 }
 
 // Where rotations are not unique, all ranks take the same ones: forces have no
-// sum, and the matrix is the operator.
+// sum, and the matrix equals the operator.
 TEST(VertexDilatation, OfACrushedBody)
 {
   for (const auto &s : {Tensor<1, 3>({1., 1., -1.}),
@@ -357,7 +357,7 @@ TEST(VertexDilatation, OfACrushedBody)
     }
 }
 
-// On one rank and on all of them, also where a rank has next to nothing.
+// Ranks together give the results of one rank, even with next to no cells.
 TEST_P(VertexDilatations, RanksAgree)
 {
   for (const bool is_small : {false, true})

@@ -22,7 +22,8 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 def environment(folder):
-    """Without what tells a process that it belongs to the MPI run which started this script."""
+    """The environment without variables that tell a process that it belongs to
+    the MPI run which started this script."""
     keep = {
         name: value
         for name, value in os.environ.items()
@@ -51,7 +52,8 @@ def run_and_kill(executable, n_ranks, n_steps, delay):
         pids = [int(open(path).read()) for path in glob.glob(os.path.join(folder, "pid_*"))]
         assert len(pids) == n_ranks
         for pid in pids:
-            # When one rank is dead, mpirun ends the others, perhaps before it is their turn here.
+            # When one rank is dead, mpirun ends the others, perhaps before this
+            # loop does.
             with contextlib.suppress(ProcessLookupError):
                 os.kill(pid, signal.SIGKILL)
         run.wait()
@@ -63,7 +65,8 @@ def run_and_kill(executable, n_ranks, n_steps, delay):
 def main():
     for n_ranks in [1, 2] if shutil.which("mpirun") else [1]:
         for i in range(4 - n_ranks):
-            # Steps take some milliseconds.
+            # Steps take some milliseconds, so each run is killed at another
+            # moment of a step.
             run_and_kill(sys.argv[1], n_ranks, 3 + 7 * i, 0.0013 * i)
 
 

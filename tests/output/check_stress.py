@@ -58,7 +58,8 @@ def shape_functions(cell, n, xi):
 
 
 def shape_gradients(cell, n, xi):
-    """By xi; these differences are exact for polynomials of degree 4."""
+    """The derivatives of shape functions by xi; these differences are exact for
+    polynomials of degree 4."""
     result = np.zeros((n, 3))
     h = 0.1
     for k in range(3):

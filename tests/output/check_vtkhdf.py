@@ -47,7 +47,7 @@ def read_steps(directory, file="solution.vtkhdf"):
     reader.UpdateInformation()
     times = reader.GetOutputInformation(0).Get(vtkStreamingDemandDrivenPipeline.TIME_STEPS())
     if times is None:
-        # VTK takes a single step for a mesh without time.
+        # VTK reads a single step as a mesh without time.
         reader.Update()
         yield read_history(directory)[0]["time"], reader.GetOutputDataObject(0)
         return
@@ -100,7 +100,7 @@ class Mesh:
         require(degree in (None, NODES[sizes[0]]), f"degree {NODES[sizes[0]]} instead of {degree}")
         self.cells = vtk_to_numpy(grid.GetCells().GetConnectivityArray()).reshape(-1, sizes[0]).copy()
         self.origins = self.points[self.cells[:, 0]]
-        # Columns are the edges from vertex 0.
+        # The columns of the Jacobian are the edges from vertex 0.
         self.jacobians = (self.points[self.cells[:, 1:4]] - self.origins[:, None]).transpose(0, 2, 1)
         require((np.linalg.det(self.jacobians) > 0).all(), "cells of negative volume")
         self.check_places(grid.GetCell(0))
@@ -116,12 +116,14 @@ class Mesh:
         size = np.linalg.norm(self.jacobians, axis=(1, 2))
         errors = (np.linalg.norm(self.points[self.cells] - expected, axis=2) / size[:, None]).max(axis=1)
         may_be_curved = self.has_edge_on_surface() if self.curved else np.zeros(len(errors), dtype=bool)
-        # Half a distance of nodes, which are a third of an edge apart, in sizes of a matrix with three edges.
+        # Half of the distance of nodes, which are a third of an edge apart,
+        # relative to the norm of a matrix of three edges.
         allowed = np.where(may_be_curved, 0.5 / 3 / np.sqrt(3), 1e-6)
         require((errors < allowed).all(), f"a node is {(errors / allowed).max():.2e} of what is allowed away from its parametric place")
 
     def has_edge_on_surface(self):
-        """Whether each cell has an edge on the surface: the others are straight in any case."""
+        """Whether each cell has an edge on the surface: other cells are always
+        straight."""
         vertices = np.sort(self.cells[:, :4], axis=1)
         faces = np.concatenate([np.delete(vertices, k, axis=1) for k in range(4)])
         found, counts = np.unique(faces, axis=0, return_counts=True)
@@ -136,7 +138,8 @@ class Mesh:
         return self.points[self.cells[:, :4]].mean(axis=1)
 
     def locate(self, grid, x):
-        """The cell that x is in and x's parametric coordinates there."""
+        """The cell that contains x, and the parametric coordinates of x in
+        it."""
         xi = np.linalg.solve(self.jacobians, (x - self.origins)[..., None])[..., 0]
         depth = np.minimum(xi.min(axis=1), 1 - xi.sum(axis=1))
         cell = int(depth.argmax())
@@ -150,7 +153,8 @@ class Mesh:
         return cell, xi[cell]
 
     def solve(self, vtk_cell, cell, x, xi):
-        """Parametric coordinates in a curved cell: Newton's method with the straight cell's Jacobian, a contraction."""
+        """The parametric coordinates in a curved cell by Newton's method with
+        the straight cell's Jacobian, a contraction."""
         weights = np.zeros(self.cells.shape[1])
         for _ in range(100):
             vtk_cell.InterpolateFunctions(xi, weights)
@@ -159,7 +163,7 @@ class Mesh:
 
 
 def interpolate(grid, mesh, x, values):
-    """Values of the nodes at x, by VTK's own shape functions."""
+    """Interpolates values of nodes at x with VTK's own shape functions."""
     cell, xi = mesh.locate(grid, x)
     weights = np.zeros(mesh.cells.shape[1])
     grid.GetCell(cell).InterpolateFunctions(xi, weights)
@@ -167,7 +171,8 @@ def interpolate(grid, mesh, x, values):
 
 
 def check_test_field(time, mesh, point_data, cell_data):
-    """Fields as tests/output/support.cc makes them. Tolerance: round-off of numbers of order one."""
+    """Checks the fields that tests/output/support.cc makes. The tolerance is
+    the round-off of numbers of order one."""
     x, y, z = mesh.points.T
     field = np.stack([time * np.sin(3 * x + y), time * np.cos(2 * y - z), time * x * y + time**2 * z], axis=1)
     np.testing.assert_allclose(point_data["displacement"], field, rtol=0, atol=1e-14)
@@ -175,7 +180,8 @@ def check_test_field(time, mesh, point_data, cell_data):
     centres = mesh.centres()
     for i, name in enumerate(["rotation_angle", "det_F", "von_mises"]):
         np.testing.assert_allclose(cell_data[name], time + centres[:, i], rtol=0, atol=1e-14)
-    # The regions meet at x = 0.5; vertices have not been moved across.
+    # The regions meet at x = 0.5, and distorted vertices do not cross that
+    # plane.
     right = mesh.points[mesh.cells[:, :4], 0].max(axis=1) > 0.6
     require(set(cell_data["region"][right]) == {8} and 7 in cell_data["region"], "wrong regions")
 
@@ -191,7 +197,8 @@ def arrays(data, names, n):
 def check_times(times, rows, killed):
     history = [row["time"] for row in rows]
     if killed:
-        # The kill came between the two files of a step.
+        # The process may have been killed between writing the two files of a
+        # step.
         require(abs(len(times) - len(history)) <= 1, f"{len(times)} steps, but {len(history)} rows in the history")
         n = min(len(times), len(history))
         require(times[:n] == history[:n], "times differ from the history's")
@@ -241,7 +248,7 @@ def main():
         with tempfile.TemporaryDirectory() as elsewhere:
             moved = os.path.join(elsewhere, "moved")
             shutil.copytree(directory, moved)
-            # The original must not be what is read.
+            # The original must not be read, so it is hidden.
             hidden = directory + ".hidden"
             os.rename(directory, hidden)
             try:

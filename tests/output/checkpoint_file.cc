@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What goes into a checkpoint comes out again, to the last bit, or the
-// checkpoint is refused.
+// A checkpoint restores its content to the last bit, or is refused.
 
 #include <corotet/output/checkpoint_checksum.h>
 #include <corotet/output/checkpoint_file.h>
@@ -24,7 +23,7 @@ using namespace test_output;
 
 namespace
 {
-  // Values of all kinds, with awkward ones.
+  // Values of all types, including awkward ones.
   struct Values
   {
     double              number  = 0;
@@ -169,7 +168,7 @@ TEST_F(CheckpointFile, TextIsNoNumber)
               }).ends_with(behind));
 }
 
-// The places of zeros' signs are kept, too.
+// The signs of zeros are kept, too.
 TEST_F(CheckpointFile, NegativeZeros)
 {
   const std::string zeros = scratch.path + "/step_000002";
@@ -204,7 +203,7 @@ TEST_F(CheckpointFile, AnyFlippedBitIsFound)
     {
       const std::string whole = content_of(path + suffix);
       wait_for_all();
-      // Of 40 bytes all over the file, another bit each.
+      // In each of 40 bytes all over the file, another bit is flipped.
       for (std::size_t k = 0; k < 40; ++k)
         {
           std::string damaged = whole;
@@ -231,9 +230,10 @@ TEST_F(CheckpointFile, OtherMeshIsRefused)
 {
   SerialMesh moved = distorted_box();
   moved.vertices[3][1] += 1e-15;
-  // What supports, loads and materials go by.
+  // Supports, loads and materials depend on the names of boundaries and
+  // regions.
   SerialMesh other_boundary = distorted_box();
-  // A triangle that only one cell has.
+  // A face on the surface belongs to one cell only.
   std::map<std::array<unsigned int, 3>, unsigned int> n_cells;
   for (const SerialMesh::Cell &cell : other_boundary.cells)
     for (const auto &[i, j, k] : corners_of_faces)
@@ -265,7 +265,7 @@ TEST_F(CheckpointFile, OtherMeshIsRefused)
     }
 }
 
-// A checksum is no secret: what has a right one is read with the same care.
+// A correct checksum is no proof: the content is checked nevertheless.
 TEST_F(CheckpointFile, WrongContentWithARightChecksum)
 {
   using Json         = nlohmann::ordered_json;

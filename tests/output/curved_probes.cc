@@ -16,9 +16,9 @@ using namespace corotet::tests;
 using dealii::Point;
 using dealii::Tensor;
 
-// Points inside of all cells, on their faces and edges, of which some lie on
-// the curved surface, and vertices. An affine displacement is in the space: it
-// is found to the round-off of 20 terms of order one.
+// Probes inside of all cells, on their faces and edges, some of which lie on
+// the curved surface, and at vertices. The elements represent affine
+// displacements exactly, so errors are the round-off of 20 terms of order one.
 TEST(Probes, CurvedCells)
 {
   const std::vector<Point<3>> places{{0.2, 0.3, 0.4},
@@ -49,7 +49,7 @@ TEST(Probes, CurvedCells)
         EXPECT_LT((values[p] - affine(points[p].position)).norm(), 1e-13)
           << points[p].position;
 
-      // Beyond the end at x = 2 + 0.2 z.
+      // This point is beyond the end at x = 2 + 0.2 z.
       EXPECT_EQ(refusal([&] {
                   Probes({{"a", {2.21, 0.7, 1.}}}, body.discretization);
                 }).substr(0, 55),
@@ -57,9 +57,10 @@ TEST(Probes, CurvedCells)
     }
 }
 
-// A probe that is a little off a curved surface, z = 1 + x^2 / 5, is taken at
-// the point below it: that to 1e-12, as Newton's method for it ends below. Of
-// the straight surfaces at x = 0 and, beyond the edge, y = 0 as well.
+// A probe that is a little off a curved surface, z = 1 + x^2 / 5, is evaluated
+// at the nearest point of the surface, to 1e-12, as Newton's method finds it.
+// So are probes beside the plane x = 0 and beside an edge, beyond y = 0 as
+// well.
 TEST(Probes, BesideTheSurface)
 {
   const auto affine = [](const Point<3> &x) {
@@ -93,7 +94,7 @@ TEST(Probes, BesideTheSurface)
         EXPECT_LT((values[p] - affine(nearest[p])).norm(), 1e-12)
           << points[p].position;
       EXPECT_NO_THROW(StressProbes(points, body.discretization, false, &log));
-      // More than a fifth of a cell away.
+      // This point is more than a fifth of a cell away.
       EXPECT_THROW(Probes({{"far", {-0.2, 0.5, 0.5}}},
                           body.discretization,
                           &log),
@@ -101,9 +102,9 @@ TEST(Probes, BesideTheSurface)
     }
 }
 
-// All nodes of a thin, strongly curved shell: vertices, on edges, on faces; for
-// stresses as well. Positions, and so displacements, have the round-off of sums
-// of 20 terms of order one.
+// Displacement and stress probes at all nodes of a thin, strongly curved shell:
+// at vertices, on edges and on faces. Positions, and so displacements, have the
+// round-off of sums of 20 terms of order one.
 TEST(Probes, NodesOfThinCurvedCells)
 {
   const auto affine = [](const Point<3> &x) {

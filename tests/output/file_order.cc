@@ -29,7 +29,7 @@ namespace
     Discretization discretization;
   };
 
-  // Places of nodes, and of the centres of cells, in the order of files.
+  // The positions of nodes in the order of files.
   std::vector<double>
   places_of_nodes(const Discretization &discretization,
                   const Nodes          &nodes,
@@ -59,8 +59,8 @@ namespace
     return FileOrder::of_cells(discretization).to_file(places.data(), 3);
   }
 
-  // Rows of this rank are those of one rank alone, but for the rounding of
-  // places that are computed in one cell or another.
+  // Compares the rows of this rank with those of one rank alone, up to the
+  // round-off of positions that are computed in another cell.
   void
   compare(const std::vector<double> &rows,
           const std::vector<double> &all_rows,
@@ -92,7 +92,8 @@ TEST(FileOrder, DoesNotDependOnTheRanks)
       compare(places_of_cells(mine),
               places_of_cells(all),
               FileOrder::of_cells(mine).rows());
-      // Others are not where the finer nodes are that number them.
+      // Only with bubbles are coarser nodes at the positions of the finer nodes
+      // that are their keys.
       if (!element.has_bubbles())
         continue;
       const CoarserNodes coarser(mine), all_coarser(all);
@@ -115,7 +116,7 @@ TEST(FileOrder, ComesBack)
   for (unsigned int i = 0; i < back.locally_owned_size(); ++i)
     EXPECT_EQ(back.local_element(i), positions.local_element(i));
 
-  // Each row is that of one node.
+  // Each row belongs to one node.
   const std::vector<std::int64_t> numbers = order.row_numbers();
   std::vector<unsigned int>       found(discretization.n_global_nodes());
   for (const std::int64_t row : numbers)

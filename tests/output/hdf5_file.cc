@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Files that all ranks write together: what is in them, and what becomes of
-// them when a rank cannot write.
+// Files that all ranks write together: their content, and what remains of them
+// if a rank cannot write.
 
 #include <corotet/base/hdf5_file.h>
 
@@ -18,7 +18,7 @@ using namespace test_output;
 
 namespace
 {
-  // As many rows on each rank as its number and 1000 more.
+  // The rows of this rank: 1000 and as many more as its number.
   Hdf5Rows
   own_rows(const hsize_t n_columns)
   {
@@ -32,7 +32,7 @@ namespace
     return {first, 1000 + rank(), n, n_columns};
   }
 
-  // Tables of all types, each number its place in the table.
+  // Writes tables of all types, in which each number is its own position.
   void
   write_tables(const std::string &path)
   {
@@ -51,7 +51,7 @@ namespace
     write("group/integers", std::int32_t(0), 0);
     write("group/long_integers", std::int64_t(0), 2);
     write("group/bytes", std::uint8_t(0), 0);
-    // No rows on ranks other than 0, and no rows at all.
+    // These tables have rows on rank 0 only, or no rows at all.
     file.write_from_root("root", std::vector<double>{0, 1, 2, 3}, 2);
     file.write_from_root("empty", std::vector<double>());
     file.write_number_attribute("group", "numbers", {1, 2});
@@ -63,7 +63,7 @@ namespace
     ": the file cannot be written (is the disk full, or permission missing?)";
 } // namespace
 
-// Read by h5py; the values of bytes are modulo 256.
+// h5py reads the tables; values of bytes are modulo 256.
 TEST(Hdf5File, TablesOfAllRanks)
 {
   const ScratchFolder scratch;
@@ -74,8 +74,8 @@ TEST(Hdf5File, TablesOfAllRanks)
             0);
 }
 
-// On one rank or on all, files may have so many bytes only: descriptions do not
-// fit, or some tables. All ranks throw the same, and nothing is left.
+// On one rank or on all, files are limited in size, so that descriptions or
+// some tables do not fit. All ranks throw the same error, and no file is left.
 TEST(Hdf5File, AnyRankMayFail)
 {
   const ScratchFolder scratch;
@@ -91,9 +91,9 @@ TEST(Hdf5File, AnyRankMayFail)
             limit.emplace(part * whole.size());
           write_tables(path);
         });
-        // What rank 0 writes ends with descriptions, at the end of the file.
-        // Rows of other ranks may lie before the limit; of the last rank, some
-        // lie in the last tenth of it.
+        // Rank 0 writes descriptions last, at the end of the file. Rows of
+        // other ranks may lie below the limit; some of the last rank's lie in
+        // the last tenth of the file.
         const bool must_fail = failing == 0 || failing == n_ranks() ||
                                (failing + 1 == n_ranks() && part < 0.9);
         if (must_fail || message != "no error")
@@ -107,7 +107,7 @@ TEST(Hdf5File, AnyRankMayFail)
       }
 }
 
-// The folder is not there, or there is a folder of that name.
+// The folder does not exist, or there is a folder with the name of the file.
 TEST(Hdf5File, FilesThatCannotBeMade)
 {
   const ScratchFolder scratch;

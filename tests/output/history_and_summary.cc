@@ -71,7 +71,7 @@ namespace
   }
 } // namespace
 
-// The columns are those of the documentation. The probe is at a node, where the
+// The columns are those of the documentation. The probe is at a node, where its
 // displacement is the field's own value.
 TEST(HistoryWriter, RowsReadBackExactly)
 {
@@ -93,7 +93,7 @@ TEST(HistoryWriter, RowsReadBackExactly)
   const auto u = displacement_field(dealii::Point<3>(1, 0.5, 0.25), 1. / 3.);
   std::vector<double> values = numbers_of(lines[2]);
   ASSERT_EQ(values.size(), 35u);
-  // Round-off of the shape functions.
+  // The tolerance is the round-off of shape functions.
   for (unsigned int c = 0; c < 3; ++c)
     {
       EXPECT_NEAR(values[20 + c], u[c], 1e-15);
@@ -139,7 +139,7 @@ TEST(HistoryWriter, RowsReadBackExactly)
                                  0}));
 }
 
-// /dev/full is a disk without space.
+// /dev/full is like a full disk.
 TEST(HistoryWriter, FullDiskIsAnError)
 {
   const ScratchFolder scratch;
@@ -161,7 +161,8 @@ TEST(HistoryWriter, MissingFolderIsAnError)
             "file or directory");
 }
 
-// All keys, in the documentation's order; what is no number is null.
+// The summary has all keys in the documentation's order; values that are not
+// numbers are null.
 TEST(SummaryWriter, HasAllKeys)
 {
   const ScratchFolder scratch;
@@ -197,7 +198,7 @@ TEST(SummaryWriter, HasAllKeys)
             nlohmann::ordered_json::parse(
               R"({"setup": 0.0, "read": 0.0, "partition": 0.0, "assembly": 0.0,
               "solve": 0.25, "output": 0.0, "total": 1.0})"));
-  // A process with deal.II needs megabytes, on each rank.
+  // A process with deal.II needs megabytes of memory, on each rank.
   EXPECT_GT(json["peak_memory_bytes"].get<double>(), 1e6 * n_ranks());
   EXPECT_FALSE(std::filesystem::exists(scratch.path + "/summary.json.tmp"));
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The output directory: made if it is missing, refused if it is in use, and
-// emptied only of what corotet has written itself, so that nothing of the
-// user's is ever lost.
+// The output directory: it is made if missing, refused if in use, and only
+// files that corotet itself has written are removed, so that no file of the
+// user is ever lost.
 
 #include <corotet/output/directory_lock.h>
 #include <corotet/output/output_directory.h>
@@ -36,7 +36,7 @@ namespace
     wait_for_all();
   }
 
-  // As a run leaves it.
+  // Makes these files and the mark, as a run leaves them.
   void
   make_results(const std::string &folder, const std::vector<std::string> &names)
   {
@@ -45,7 +45,7 @@ namespace
     make_files(folder, names);
   }
 
-  // Nothing is left but the mark.
+  // Whether the folder has only the mark.
   bool
   has_nothing(const std::string &folder)
   {
@@ -84,7 +84,7 @@ TEST(OutputDirectory, IsMadeWithItsParents)
   const std::string   directory = scratch.path + "/a/b";
   prepare_output_directory(directory, false, MPI_COMM_WORLD);
   EXPECT_TRUE(fs::is_empty(directory));
-  // An empty one is as good as a new one.
+  // An empty folder is as good as a new one.
   prepare_output_directory(directory + "/", false, MPI_COMM_WORLD);
 }
 
@@ -107,7 +107,7 @@ TEST(OutputDirectory, ResultsAreOverwritten)
   EXPECT_TRUE(has_nothing(scratch.path));
 }
 
-// One foreign file, wherever it is, keeps everything.
+// One foreign file, anywhere, prevents all files from being removed.
 TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
 {
   for (const std::string foreign : {"thesis.tex",
@@ -130,7 +130,7 @@ TEST(OutputDirectory, ForeignFilesAreNotOverwritten)
     }
 }
 
-// Whatever the names of files: without the mark they may be anybody's.
+// Without the mark files may belong to anybody, whatever their names are.
 TEST(OutputDirectory, UnmarkedFolderIsNotOverwritten)
 {
   for (const std::vector<std::string> &names :
@@ -193,7 +193,8 @@ TEST(OutputDirectory, FailureIsTheMachines)
     << message;
 }
 
-// One run at a time; the file that it leaves locks nothing.
+// Only one run at a time can have the lock; the file that remains locks
+// nothing.
 TEST(DirectoryLock, KeepsOthersOut)
 {
   const ScratchFolder scratch;
@@ -208,7 +209,7 @@ TEST(DirectoryLock, KeepsOthersOut)
       EXPECT_TRUE(message.starts_with("the output directory '" + directory +
                                       "' is in use by process "))
         << message;
-      // The mark alone is no result.
+      // A folder with the mark alone has no results.
       prepare_output_directory(directory, false, MPI_COMM_WORLD);
     }
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The entries of section Output: what is accepted means what its documentation
-// says, and what is not is refused with a message that says why.
+// The entries of section Output: accepted values mean what the documentation
+// says, and others are refused with a reason.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using corotet::OutputParameters;
 
 namespace
 {
-  // The refusal of a value of entry Probes, with the entry it blames.
+  // The refusal of a value of the entry Probes, with the entry that it names.
   std::string
   probes_refusal(const std::string &probes)
   {

@@ -31,8 +31,8 @@ namespace
   }
 } // namespace
 
-// 200 random points, the corners of the box, and vertices inside it. The
-// tolerance is round-off of 20 terms of order one, some 1e-15 each.
+// The probes are 200 random points, the corners of the box, and vertices inside
+// it. The tolerance is the round-off of 20 terms of order one, some 1e-15 each.
 TEST(Probes, PolynomialIsExact)
 {
   std::mt19937                           random(1);
@@ -69,7 +69,8 @@ TEST(Probes, PolynomialIsExact)
     }
 }
 
-// On the surface but for round-off counts as inside, beyond it does not.
+// A point on the surface, up to round-off, counts as inside; one beyond does
+// not.
 TEST(Probes, SurfaceBelongsToTheBody)
 {
   ModelBody body(2);

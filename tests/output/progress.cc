@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The progress: what a line says, and how many lines stay.
+// The progress: the text of a line, and the number of lines that remain.
 
 #include <corotet/output/progress.h>
 
@@ -24,8 +24,8 @@ TEST(Progress, LineSaysHowFarTheRunIs)
             "step 12, time 0.25 of 0.25 s (100 %), Newton 2, linear 31");
 }
 
-// The share is that of the run, wherever its times begin, and is rounded down.
-// 100 times 0.29 is less than 29, by round-off.
+// The percentage is that of the run, whatever its start time, and is rounded
+// down. With round-off, 100 times 0.29 is less than 29.
 TEST(Progress, ShareIsThatOfTheRun)
 {
   const auto share =
@@ -43,7 +43,7 @@ TEST(Progress, ShareIsThatOfTheRun)
   EXPECT_EQ(share(0.29, 0, 1), "(29 %)");
 }
 
-// A thousand steps that take no time leave the first and the last line.
+// A thousand steps that take no time show the first and the last line only.
 TEST(Progress, QuickStepsLeaveTwoLines)
 {
   const ScratchFolder scratch;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Stress at probes: exact where stress is constant in each material, the mean
-// of two where they meet, the same for any distribution over ranks; its columns
-// are the history's last.
+// Stress at probes: it is exact where stress is constant in each material, the
+// mean of both materials at their interface, and the same for any distribution
+// over ranks; its columns are the last ones of the history.
 
 #include <corotet/laws/linear.h>
 #include <corotet/output/history_writer.h>
@@ -29,7 +29,7 @@ namespace
   const std::string places =
     "left: 0.2 0.3 0.1, right: 0.8 0.5 0.25, between: 0.5 0 0";
 
-  // u = (2 y, 0.1 y, z - x) / 100.
+  // Sets the displacement u = (2 y, 0.1 y, z - x) / 100.
   void
   set_displacement(ModelBody &body)
   {
@@ -62,7 +62,8 @@ namespace
   }
 } // namespace
 
-// Round-off of fits whose normal equations have condition 1e3.
+// The tolerance is the round-off of fits whose normal equations have condition
+// 1e3.
 TEST(StressProbes, ExactInEachMaterial)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -83,8 +84,8 @@ TEST(StressProbes, ExactInEachMaterial)
     }
 }
 
-// Raw stress of degree 1 is constant in cells: a probe inside a cell has that
-// of the cell, which the recovered one is not where stress varies.
+// For degree 1 raw stress is constant in cells, and a probe inside a cell shows
+// that of the cell; the recovered stress differs from it where stress varies.
 TEST(StressProbes, Raw)
 {
   ModelBody              body(1);
@@ -155,6 +156,7 @@ TEST(StressProbes, Refusals)
   EXPECT_EQ(refusal("a: 1 2"),
             "probe 'a' is at '1 2'; its position must be three numbers (x y z, "
             "in m)");
-  // Their columns have other names than those of displacements.
+  // Columns of stress probes have other names than those of displacements, so
+  // the name "reaction" is allowed.
   EXPECT_EQ(refusal("reaction: 0 0 0"), "no error");
 }

@@ -104,7 +104,8 @@ namespace test_output
               x += Point<3>(0.03 * std::sin(7. * i), 0.04, -0.02);
             mesh.vertices.push_back(x);
           }
-    // The six paths from corner to corner of a cube, along its edges.
+    // The six paths along the edges of a cube from one corner to the opposite
+    // one.
     const std::array<std::array<unsigned int, 3>, 6> paths{{{{0, 1, 2}},
                                                             {{1, 2, 0}},
                                                             {{2, 0, 1}},
@@ -124,7 +125,8 @@ namespace test_output
                   ++at[paths[p][s]];
                   cell.vertices[s + 1] = vertex(at[0], at[1], at[2]);
                 }
-              // Odd permutations make mirror images.
+              // Odd permutations give mirror images, so two vertices are
+              // swapped.
               if (p >= 3)
                 std::swap(cell.vertices[1], cell.vertices[2]);
               cell.region = 2 * i < nx ? 7 : 8;
@@ -151,7 +153,7 @@ namespace test_output
   {
     discretization.initialize_vector(displacement);
     discretization.initialize_vector(velocity);
-    // All local entries are set together, ghosts too.
+    // All local entries, including ghosts, are set here.
     displacement.set_ghost_state(true);
     velocity.set_ghost_state(true);
   }

@@ -15,11 +15,11 @@
 #include <functional>
 #include <string>
 
-// What the tests of the output layer share.
+// Tools that the tests of the output layer share.
 namespace test_output
 {
   /**
-   * A new folder, the same for all ranks, that is removed in the end.
+   * A new folder, the same for all ranks, which is removed in the end.
    */
   class ScratchFolder
   {
@@ -34,7 +34,7 @@ namespace test_output
     std::string path;
   };
 
-  /// Waits for all ranks: what one of them has done to files is done.
+  /// Waits for all ranks, so that changes of files by one of them are complete.
   void
   wait_for_all();
 
@@ -50,8 +50,8 @@ namespace test_output
   std::string
   content_of(const std::string &file);
 
-  /// The message of the @p Kind of error that @p action throws; "no error" if
-  /// it throws none.
+  /// The message of the error of type @p Kind that @p action throws; "no error"
+  /// if it throws none.
   template <typename Kind>
   std::string
   message_of(const std::function<void()> &action)
@@ -68,8 +68,8 @@ namespace test_output
   }
 
   /**
-   * No file of this process may grow beyond a size, while this object lives:
-   * as on a full disk, writing fails.
+   * While this object lives, no file of this process may grow beyond a size:
+   * writing more fails as on a full disk.
    */
   class FileSizeLimit
   {
@@ -93,21 +93,22 @@ namespace test_output
   corotet::SerialMesh
   distorted_box();
 
-  /// In check_vtkhdf.py, too (option --test-field).
+  /// The displacement of the model body; check_vtkhdf.py has the same formula
+  /// (option --test-field).
   dealii::Tensor<1, 3>
   displacement_field(const dealii::Point<3> &x, const double t);
 
   /**
    * States of a body without any mechanics: displacement_field() at the nodes,
-   * as velocity its double, and cell data that check_vtkhdf.py knows.
+   * twice that as velocity, and cell data that check_vtkhdf.py knows.
    */
   class ModelBody
   {
   public:
     explicit ModelBody(const corotet::Element element);
 
-    /// Shows the observer a state (step 0 by start(), others by step()) with a
-    /// record of awkward numbers.
+    /// Shows a state to the observer (step 0 by start(), others by step()),
+    /// with a record of awkward numbers.
     void
     show(corotet::Observer &observer,
          const unsigned int step,
@@ -124,12 +125,12 @@ namespace test_output
     corotet::Vector         velocity;
   };
 
-  /// Runs PYTHON-FILE of this folder with these arguments on rank 0; its exit
+  /// Runs "PYTHON-FILE ARGUMENTS" of this folder on rank 0; returns its exit
   /// status on all ranks.
   int
   run_python(const std::string &command);
 
-  /// Points inside, on a face and at a vertex of the box.
+  /// Points inside the box, on its face and at its vertex.
   const std::string probes =
     "inside: 0.317 0.211 0.127, face: 1 0.2 0.11, corner: 1 0.5 0.25";
 } // namespace test_output

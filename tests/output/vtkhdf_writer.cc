@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The time series for ParaView. What VTK's own reader makes of it is compared
-// with what was written by check_vtkhdf.py, which tells what it checks.
+// The time series for ParaView. check_vtkhdf.py compares what VTK's own reader
+// reads with what was written, and tells what it checks.
 
 #include <corotet/output/history_writer.h>
 #include <corotet/output/observers.h>
@@ -65,7 +65,7 @@ TEST(VtkhdfWriter, NodeOrderIsAPermutation)
     }
 }
 
-// All observers together, as a run calls them; all degrees.
+// All observers are called together, as in a run, for all degrees.
 TEST(VtkhdfWriter, VtkReadsWhatWasWritten)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -87,9 +87,9 @@ TEST(VtkhdfWriter, VtkReadsWhatWasWritten)
     }
 }
 
-// Of the element with bubbles the nodes on vertices and edges are written: the
-// mesh is one of quadratic tetrahedra without nodes that belong to no cell, on
-// any number of ranks. The probes are at such nodes; elsewhere bubbles count.
+// For the element with bubbles only nodes on vertices and edges are written:
+// the mesh consists of quadratic tetrahedra without unused nodes, on any number
+// of ranks. The probes are at such nodes, as elsewhere bubbles contribute.
 TEST(VtkhdfWriter, BubblesAreLeftOut)
 {
   const ScratchFolder scratch;
@@ -107,7 +107,7 @@ TEST(VtkhdfWriter, BubblesAreLeftOut)
             0);
 }
 
-// The checker can fail: a wrong field, a wrong degree, a wrong probe.
+// The checker notices a wrong field, a wrong degree and a wrong probe.
 TEST(VtkhdfWriter, CheckerNoticesErrors)
 {
   const ScratchFolder scratch;
@@ -124,8 +124,9 @@ TEST(VtkhdfWriter, CheckerNoticesErrors)
   EXPECT_NE(run_python(command + " --degree 3 >&- 2>&-"), 0);
 }
 
-// Results at the first step at or after each multiple of 0.25: of steps of 0.1
-// these are 3 (0.3), 5 (0.5) and 8 (0.8); the first and the last are added.
+// Results are written at the first step at or after each multiple of 0.25, and
+// at the first and the last step: with steps of 0.1 these are 3 (0.3), 5 (0.5)
+// and 8 (0.8).
 TEST(VtkhdfWriter, TimeBetweenResults)
 {
   const ScratchFolder scratch;
@@ -142,7 +143,7 @@ TEST(VtkhdfWriter, TimeBetweenResults)
                                       "step_000009.h5"}));
 }
 
-// With blocks of three, 32 results make blocks of 27, 3, 1 and 1 (three
+// With blocks of three results, 32 results make blocks of 27, 3, 1 and 1 (three
 // levels), which VTK reads like the results themselves.
 TEST(VtkhdfWriter, BlocksStandForResults)
 {
@@ -161,9 +162,9 @@ TEST(VtkhdfWriter, BlocksStandForResults)
   EXPECT_EQ(run_python("check_vtkhdf.py " + scratch.path + " --test-field"), 0);
 }
 
-// The file that refers to all results is written after each of them, so it must
-// not grow with their number: nine times as many results, which are in one
-// block as well, take a few letters more in a name.
+// The file that refers to all results is rewritten after each of them, so it
+// must not grow with their number: for nine times as many results, which are in
+// one block as well, only a name is a few letters longer.
 TEST(VtkhdfWriter, IndexDoesNotGrow)
 {
   const ScratchFolder scratch;
@@ -184,8 +185,8 @@ TEST(VtkhdfWriter, IndexDoesNotGrow)
   EXPECT_EQ(run_python("check_vtkhdf.py " + scratch.path + " --test-field"), 0);
 }
 
-// When a file cannot be written, all ranks learn it, and what was written
-// before stays as it is. Files that may not grow stand for a full disk.
+// If a file cannot be written, all ranks get the error, and earlier files
+// remain. A limited file size simulates a full disk.
 TEST(VtkhdfWriter, FullDiskLosesNothing)
 {
   const ScratchFolder scratch;
@@ -220,8 +221,8 @@ TEST(VtkhdfWriter, MissingFolderIsAnError)
             "or directory");
 }
 
-// Not a test: a run without end that check_killed.py starts and kills. Each
-// rank says which process it is.
+// This is not a test, but a run without end that check_killed.py starts and
+// kills. Each rank tells its process id.
 TEST(VtkhdfWriter, RunWithoutEnd)
 {
   const char *folder = std::getenv("COROTET_TEST_RUN_WITHOUT_END");
@@ -242,8 +243,8 @@ TEST(VtkhdfWriter, RunWithoutEnd)
       body.show(*observer, step, step / 1024., false);
 }
 
-// A run that is killed at any moment, on one rank and on two, leaves every
-// finished result readable.
+// A run that is killed at any moment, on one rank or two, leaves every finished
+// result readable.
 TEST(VtkhdfWriter, KilledRunIsReadable)
 {
   if (n_ranks() > 1)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Chromium without a window, which draws by software: pages as people see them, what the browser says about them and what it asks for."""
+"""Chromium without a window, which draws by software: what pages look like,
+what the browser reports about them, and what they load."""
 
 import io
 import json
@@ -34,12 +35,13 @@ class Browser:
         self.driver.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": width, "height": height, "deviceScaleFactor": 1, "mobile": False})
 
     def set_media(self, **features):
-        """For example prefers_color_scheme="dark"."""
+        """Sets media features, for example prefers_color_scheme="dark"."""
         self.driver.execute_cdp_cmd("Emulation.setEmulatedMedia",
                                     {"features": [{"name": name.replace("_", "-"), "value": value} for name, value in features.items()]})
 
     def open(self, path):
-        """Opens a page and waits until its data are read, and it is drawn. Returns how long the former took [s]."""
+        """Opens a page and waits until its data are read and it is drawn.
+        Returns how long reading took [s]."""
         self.driver.get_log("browser"), self.driver.get_log("performance")
         start = time.monotonic()
         self.driver.get(path.as_uri())
@@ -55,15 +57,15 @@ class Browser:
         return self.driver.execute_script(script, *arguments)
 
     def settle(self):
-        """Waits until what was asked for is drawn."""
+        """Waits until the requested state is drawn."""
         self.driver.execute_async_script("const done = arguments[0]; requestAnimationFrame(() => requestAnimationFrame(() => done()))")
 
     def messages(self):
-        """What the console has had since the page was opened."""
+        """The messages in the console since the page was opened."""
         return [entry["message"] for entry in self.driver.get_log("browser")]
 
     def requests(self):
-        """Addresses that the page has asked for, itself aside."""
+        """The addresses that the page has loaded, without its own."""
         events = [json.loads(entry["message"])["message"] for entry in self.driver.get_log("performance")]
         sent = [event["params"]["request"]["url"] for event in events if event["method"] == "Network.requestWillBeSent"]
         return [url for url in sent if url != self.driver.current_url and not url.startswith(("data:", "blob:"))]
@@ -75,12 +77,13 @@ class Browser:
         return self.run("return [...document.querySelectorAll(arguments[0])].map((one) => one.textContent)", selector)
 
     def data(self):
-        """The numbers of the page by their names: what it keeps, and what it shows."""
+        """The numbers of the page by their names: the stored number and the
+        text that is shown."""
         found = self.run("return [...document.querySelectorAll('data[data-key]')].map((one) => [one.dataset.key, one.value, one.textContent])")
         return {key: (value, text) for key, value, text in found}
 
     def press(self, *keys, shift=False, settled=True):
-        """Keys for what has the focus."""
+        """Presses keys; the focused element gets them."""
         chain = ActionChains(self.driver)
         if shift:
             chain.key_down(Keys.SHIFT)
@@ -93,7 +96,8 @@ class Browser:
             self.settle()
 
     def set_value(self, name, value):
-        """Of an input or a choice, as a person does it: with its events."""
+        """Sets the value of an input or a choice with the events that a person
+        causes."""
         self.run("const e = document.getElementById(arguments[0]); e.value = arguments[1];"
                  "for (const type of ['input', 'change']) e.dispatchEvent(new Event(type, {bubbles: true}))", name, str(value))
         self.settle()
@@ -103,19 +107,20 @@ class Browser:
         self.settle()
 
     def point_at(self, x, y):
-        """The mouse goes to a place of the window [pixels]."""
+        """Moves the mouse to a position in the window [pixels]."""
         chain = ActionChains(self.driver)
         chain.w3c_actions.pointer_action.move_to_location(int(x), int(y))
         chain.perform()
         self.settle()
 
     def press_mouse(self):
-        """Where it is."""
+        """Presses the mouse button at its position."""
         ActionChains(self.driver).click().perform()
         self.settle()
 
     def picture(self, selector):
-        """What is drawn there, as numbers from 0 to 255 (rows x columns x 3), without what lies over it: texts change with everything."""
+        """The pixels of an element as numbers from 0 to 255 (rows x columns x
+        3), without elements that lie over it, whose texts change."""
         others = "for (const one of document.querySelector(arguments[0]).parentElement.children) if (!one.matches(arguments[0]))"
         self.run(others + "one.style.visibility = 'hidden'", selector)
         self.settle()
@@ -125,5 +130,6 @@ class Browser:
 
 
 def n_different(one, other):
-    """Pixels whose colours differ by more than antialiasing may."""
+    """The number of pixels whose colours differ by more than antialiasing may
+    cause."""
     return int((abs(one - other).max(axis=2) > 8).sum())

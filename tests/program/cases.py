@@ -9,7 +9,8 @@
   one rank is reproducible to the last digit;
 - the file itself is short and begins with a comment.
 
-Of modes, summary.json has the frequencies in place of the history, which is not there, and modes.csv has its columns.
+Modes have frequencies in summary.json and columns in modes.csv instead of a
+history.
 
 To be given the case as argument: cases.py Cases.test_NAME
 """

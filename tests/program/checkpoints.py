@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Runs that are killed, stopped or damaged and restarted: nothing is lost, nothing is counted twice.
+"""Runs that are killed, stopped or damaged, and then restarted: nothing is lost, and nothing is counted twice.
 
 A run that is killed at a random moment and goes on by --restart, perhaps several times, must give the history of the undisturbed
 run, to the last digit on the same number of ranks (but for wall times), and the same time series. On another number of ranks
@@ -29,8 +29,8 @@ BEAM = {"Mesh/Type": "box", "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "8
         "Loads/Gravity": "0; 0; -10", "Output/Probes": "tip: 1 0.05 0.05", "Output/Directory": "run", "Checkpoint/Minutes between checkpoints": "0"}
 IMPLICIT = {**BEAM, "Time integration/End time": "1", "Time integration/Time step": "0.02", "Checkpoint/Steps between checkpoints": "4"}
 MOVING = {"Boundary conditions/Displacement": "x-min: 0; 0; 0.05 * sin(9 * t)", "Boundary conditions/Fixed": ""}
-# What each kind of run has that another has not: methods with a memory, steps of their own choice, loads and supports that move,
-# damping, springs, states between those that are recorded, preconditioners that are kept for long.
+# The special properties of each kind of run: methods with a memory, steps of their own choice, loads and supports that move, damping,
+# springs, states between the recorded ones, preconditioners that are kept for long.
 KINDS = {
     "generalized-alpha": {**IMPLICIT, "Damping/Mass coefficient": "0.3", "Damping/Stiffness coefficient": "1e-3"},
     "BDF2": {**IMPLICIT, **MOVING, "Time integration/Type": "BDF2"},
@@ -71,7 +71,7 @@ class Run:
                                 start_new_session=True)
 
     def processes(self):
-        """Of the program itself, one for each rank."""
+        """The processes of the program itself, one for each rank."""
         found = []
         for entry in pathlib.Path("/proc").glob("[0-9]*"):
             try:
@@ -82,15 +82,14 @@ class Run:
         return found
 
     def finish(self, *arguments, ranks=None):
-        """Status, what it printed, and its errors."""
+        """Finishes a run; returns its status, output and errors."""
         run = run_on(ranks or self.ranks, ["case.prm", *arguments], self.folder, 300)
         return run.returncode, run.stdout, run.stderr
 
     def kill(self, process):
-        """Kills the run: mpirun, if it was started by that, and all ranks, which it does not take along.
-        Returns what it printed and its errors."""
+        """Kills the run: mpirun, if it was started by that, and all ranks, which do not end with mpirun. Returns output and errors."""
         ranks = self.processes()
-        # Not reaped yet, the group is there, also if the run has just ended.
+        # As long as the process is not reaped, its group exists, also if the run has just ended.
         if process.returncode is None:
             os.killpg(process.pid, signal.SIGKILL)
         for pid in ranks:
@@ -104,7 +103,7 @@ class Run:
         return said
 
     def kill_after(self, seconds, *arguments):
-        """Whether the run had not ended before."""
+        """Kills the run after some seconds; returns whether it had not ended before."""
         process = self.start(*arguments)
         try:
             process.communicate(timeout=seconds)
@@ -115,13 +114,13 @@ class Run:
 
 
 def results_of(directory):
-    """Files of the time series by name. The same numbers make the same files."""
+    """The files of the time series by name. Equal numbers give equal files."""
     return {file.relative_to(directory): file.read_bytes() for file in sorted(directory.glob("solution*/**/*")) if file.is_file()} | {
         "index": (directory / "solution.vtkhdf").read_bytes()}
 
 
 def different(files, others):
-    """Names of files that only one has, or that are not the same."""
+    """The names of files that only one has, or that differ."""
     return sorted(str(name) for name in files.keys() | others.keys() if files.get(name) != others.get(name))
 
 
@@ -136,7 +135,7 @@ class Checkpoints(ProgramTest):
         return run, time.monotonic() - start
 
     def kill_and_restart(self, kind, undisturbed, seconds, moments, name):
-        """Kills a run at these moments, parts of the time of an undisturbed one. Returns how often it was killed."""
+        """Kills a run at these moments, as fractions of the time of an undisturbed run. Returns how often it was killed."""
         run = Run(self.folder / name.replace(" ", "_"), kind, undisturbed.ranks)
         kills = 0
         for moment in moments:
@@ -149,7 +148,7 @@ class Checkpoints(ProgramTest):
         return kills
 
     def test_killed_runs(self):
-        # A part of what campaigns/restarts.py does.
+        # This is a part of campaigns/restarts.py.
         random.seed(1)
         for kind in KINDS:
             with self.subTest(kind=kind):
@@ -167,7 +166,7 @@ class Checkpoints(ProgramTest):
     def stop_at(self, run, step, *arguments, keep=2):
         """Ends the run when it has a checkpoint of that step."""
         file = run.output / "checkpoint" / f"step_{step:06}.json"
-        # Where others hold the processor, the run may be further than the step before this sees it.
+        # If other processes keep the processor busy, the run may have passed the step before this loop sees it.
         for _ in range(5):
             process = run.start("--set", f"Checkpoint/Keep = {keep}", *arguments)
             while not file.exists() and process.poll() is None:
@@ -209,7 +208,7 @@ class Checkpoints(ProgramTest):
                 shutil.rmtree(run.folder)
 
     def test_between_parts_of_a_step(self):
-        """A step that is halved is saved between its parts, too, and goes on there."""
+        """A step that is halved is saved between its parts, too, and continued there."""
         run = Run(self.folder / "halved", "static", 1, {"Time integration/static/Load steps": "2", "Loads/Gravity": "0; 0; -10",
                                                         "Newton/Maximum iterations": "5", "Checkpoint/Minutes between checkpoints": "1e-9",
                                                         "Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "1000"})
@@ -219,7 +218,7 @@ class Checkpoints(ProgramTest):
         names = sorted(path.stem for path in (run.output / "checkpoint").glob("*.json"))
         for name in [name for name in names if name.count("_") == 2]:
             with self.subTest(name=name):
-                # Those that come after it, whole steps behind their parts.
+                # These are later checkpoints; a whole step comes after its parts.
                 later = [path for path in (run.output / "checkpoint").iterdir()
                          if path.name.split(".")[0].split("_")[1:] > name.split("_")[1:] or path.stem == name.rsplit("_", 1)[0]]
                 for path in later:
@@ -232,7 +231,8 @@ class Checkpoints(ProgramTest):
         self.assertGreaterEqual(len(names), 4)
 
     def test_whole_steps_after_a_part(self):
-        """A checkpoint within a step does not count for that step: one with another step length, too, has a row with its number."""
+        """A checkpoint within a step does not count for that step: a continued run, also with another step size, has a row for the step's
+        number."""
         entries = {"Time integration/Time step": "0.2", "Newton/Maximum iterations": "2", "Checkpoint/Minutes between checkpoints": "1e-9",
                    "Checkpoint/Steps between checkpoints": "0", "Checkpoint/Keep": "1000"}
         later = ("--set", "Checkpoint/Minutes between checkpoints = 0", "--set", "Checkpoint/Steps between checkpoints = 1")
@@ -256,7 +256,8 @@ class Checkpoints(ProgramTest):
                 self.assertTrue((folder / f"step_{number:06}.json").exists())
 
     def test_unfinished_checkpoints_are_removed(self):
-        """What a run that was killed while it saved has left would be there for ever: vectors without the rest, files under way. Others' files stay."""
+        """Files that a run left that was killed while it saved, vectors without .json file or temporary files, are removed. Files of
+        others stay."""
         run = Run(self.folder / "run", "generalized-alpha", 1)
         self.stop_at(run, 24)
         folder = run.output / "checkpoint"
@@ -272,7 +273,7 @@ class Checkpoints(ProgramTest):
         self.assertFalse([name for name in names if name.endswith(".tmp")], kept)
 
     def test_no_checkpoint_that_is_good(self):
-        # Of a run that was killed: what it has must not be lost, as with a program of another version.
+        # The run was killed: its results must not be lost if its checkpoints are unusable, as if another version had written them.
         run = Run(self.folder / "unusable", "static", 1)
         self.stop_at(run, 9)
         for file in (run.output / "checkpoint").glob("*.json"):
@@ -287,7 +288,7 @@ class Checkpoints(ProgramTest):
         self.assertIn("begins anew", out)
 
     def test_ended_run_with_damaged_checkpoints(self):
-        # It has checkpoints, which must not be denied.
+        # The run has checkpoints, so the message must not say that there are none.
         run = Run(self.folder / "damaged", "static", 1)
         status, _, errors = run.finish()
         self.assertEqual((status, errors), (0, ""))
@@ -318,7 +319,7 @@ class Checkpoints(ProgramTest):
         self.assertEqual(run.finish("--restart", "--set", "Output/Overwrite = true")[0], 0)
 
     def test_restart_keeps_files_of_others(self):
-        # Names like those of results, in a folder that no run has marked.
+        # These files have names like results, but no run has marked the folder.
         run = Run(self.folder / "others", "static", 1)
         run.output.mkdir()
         for name in ("report.html", "log.txt", "study_notes.csv"):
@@ -329,7 +330,7 @@ class Checkpoints(ProgramTest):
             self.assertRegex(errors, "^corotet: error: .*Output/Directory.*'run' is not empty and holds no results of corotet.*\n$")
         self.assertEqual({file.name: file.read_text(encoding="utf-8") for file in run.output.iterdir()},
                          {name: "mine" for name in ("report.html", "log.txt", "study_notes.csv")})
-        # Results of another kind.
+        # These are results of another kind of run.
         run = Run(self.folder / "simulation", "static", 1)
         self.assertEqual(run.finish()[0], 0)
         before = (run.output / "history.csv").read_bytes()
@@ -347,7 +348,7 @@ class Checkpoints(ProgramTest):
         while (run.output / "summary.json").exists() and process.poll() is None:
             time.sleep(0.002)
         out, errors = run.kill(process)
-        # "Without summary.json, the run was killed."
+        # A directory without summary.json tells that the run was killed.
         self.assertFalse((run.output / "summary.json").exists(), out + errors)
         self.assertEqual(process.returncode, -signal.SIGKILL)
 
@@ -355,7 +356,7 @@ class Checkpoints(ProgramTest):
         run = Run(self.folder / "unreadable", "static", 1)
         self.assertEqual(run.finish()[0], 0)
         before = {file: file.read_bytes() for file in run.output.rglob("*") if file.is_file()}
-        # As where permission is missing, which tests by root never meet.
+        # Reading fails as without permission, which root always has.
         environment = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": "all", "COROTET_TEST_MODE": "from",
                        "COROTET_TEST_FROM": "1", "ASAN_OPTIONS": "verify_asan_link_order=0"}
         for suffix in (".json", ".h5"):
@@ -375,7 +376,7 @@ class Checkpoints(ProgramTest):
                 reference, _ = self.undisturbed(kind, ranks, entries)
                 run = Run(self.folder / f"{kind}_others", kind, ranks, entries)
                 self.stop_at(run, {"explicit": 300, "static": 9}.get(kind, 16))
-                # Cells have the same numbers, whoever shares them out.
+                # Cells have the same numbers in checkpoints for every partitioner.
                 partitioner = "PT-Scotch" if has_pt_scotch() else "Hilbert curve"
                 status, out, errors = run.finish("--restart", "--set", f"Mesh/Partitioner = {partitioner}", ranks=others)
                 self.assertEqual(status, 0, out + errors)
@@ -406,14 +407,14 @@ class Checkpoints(ProgramTest):
                 self.assertEqual(run.finish("--set", "Time integration/End time = 0.5")[0], 0)
                 status, out, errors = run.finish("--restart")
                 self.assertEqual(status, 0, out + errors)
-                # Other round-off in the times of steps, and Newton's method goes on from it.
+                # Times of steps have other round-off, which Newton's method passes on.
                 self.compare(read_history(run.output), read_history(long.output))
-                # Once more there is nothing left to do.
+                # After a further restart nothing is left to do.
                 self.assertEqual(run.finish("--restart")[0], 0)
                 self.compare(read_history(run.output), read_history(long.output))
 
     def test_changes_that_are_allowed(self):
-        """Solvers and tolerances, and what has no effect: all lead to the same results."""
+        """Solvers and tolerances, and entries without effect, may change: the results are the same."""
         strict = {"Linear solver/Tolerance": "1e-11", "Newton/Residual tolerance": "1e-10", "Newton/Increment tolerance": "1e-10"}
         reference, _ = self.undisturbed("static", 1, strict)
         for before, change in (("automatic", "Linear solver/Type = p-multigrid"), ("p-multigrid", "Linear solver/Type = automatic"),
@@ -423,7 +424,7 @@ class Checkpoints(ProgramTest):
             with self.subTest(before=before, change=change):
                 run = Run(self.folder / "allowed", "static", 1, {**strict, "Linear solver/Type": before})
                 self.stop_at(run, 9)
-                # What users keep beside their results.
+                # Users may keep files beside their results.
                 (run.output / "view.pvsm").write_text("<ParaView/>", encoding="utf-8")
                 status, out, errors = run.finish("--restart", "--set", "Newton/Maximum iterations = 100", "--set", change)
                 self.assertEqual(status, 0, out + errors)
@@ -450,13 +451,13 @@ class Checkpoints(ProgramTest):
         first = run.start()
         while not (run.output / "history.csv").exists():
             time.sleep(0.005)
-        # It must not end while the others try.
+        # The first run must not end while the others try, so it is stopped.
         first.send_signal(signal.SIGSTOP)
         for arguments in (("--set", "Output/Overwrite = true"), ("--restart",)):
             status, _, errors = run.finish(*arguments)
             self.assertEqual(status, 3, errors)
             self.assertRegex(errors, rf"^corotet: error: the output directory 'run' is in use by process {first.pid} on .*\n$")
-        # Which changes nothing, and so need not wait.
+        # --validate changes no file, so it need not wait.
         self.assertEqual(run.finish("--restart", "--validate")[0], 0)
         first.send_signal(signal.SIGCONT)
         self.assertEqual(first.wait(60), 0)

@@ -1,22 +1,25 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Random combinations of what can be combined, each computed twice: once on one rank with a direct solver, once on 1, 2 or 3
-ranks with another solver. Both must end with status 0 and agree to solver tolerance.
+"""Random combinations of entries, each computed twice: once on one rank with a
+direct solver, once on 1, 2 or 3 ranks with another solver. Both must end with
+status 0 and agree to solver tolerance.
 
-A combination is made by a number, its seed; `combinations.py --seeds 0 300` runs 300 of them and names those that disagree.
-The problem is posed in units of the body's length L, Young's modulus E and density rho, and then given to the program in random
-units, whose results are turned back.
+A combination is made by a number, its seed; `combinations.py --seeds 0 300`
+runs 300 of them and names those that disagree. The problem is posed in units of
+the body's length L, Young's modulus E and density rho, and then given to the
+program in random units, from which the results are converted back.
 
 How close results must be: Newton's method and linear solvers have tolerances of 1e-10 and 1e-11 here, relative to the forces and
 the displacement; a soft direction of these bodies (length over thickness up to 3, strains down to 1e-6) makes at most some 1e3 of
 that, and so do some steps of dynamics. So displacements must agree to
 - 1e-7 of the largest difference of displacements in the body;
-- 1e4 roundings of the largest displacement, which is what strains are known to where a body has moved far;
+- 1e4 roundings of the largest displacement, to which strains are known where a
+  body has moved far;
 - in static load steps whose support moves, to 1e-8 of the largest displacement, since linear solves begin with the forces of that
   motion: all of it if the material is linear; if not, no more than 1e4 roundings of the length, as Newton's method removes what is
   above its estimate of round-off, which is up to 700 times the true one.
-Energies must agree to what these make of them.
+The tolerances of energies follow from these.
 """
 
 import argparse
@@ -39,7 +42,7 @@ N_SEEDS_IN_CI = 30
 
 @functools.cache
 def time_integration():
-    """The section of that name, as the program lists it."""
+    """The section with the time integration, as the program lists it."""
     listing = subprocess.run([os.environ["COROTET_PROGRAM"], "--print-parameters", "json"], capture_output=True, text=True, check=True)
     return json.loads(listing.stdout)["Time integration"]
 
@@ -49,7 +52,7 @@ def components(*values):
 
 
 class Combination:
-    """The entries of a parameter file, and the units that it is in."""
+    """The entries of a parameter file, and its units."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
@@ -74,7 +77,8 @@ class Combination:
         self.curved = self.random.random() < 0.25
         self.entries["Mesh/Scale"] = self.length
         if self.curved:
-            # A thick sphere's octant with radii 1 and 2, held in its planes of symmetry.
+            # The mesh is a thick sphere's octant with radii 1 and 2, held in
+            # its planes of symmetry.
             self.entries["Mesh/Type"] = "gmsh"
             self.entries["Mesh/gmsh/File"] = ROOT / "meshes" / "sphere_octant.geo"
             self.choose("Mesh/gmsh/Geometry degree", 2, 3)
@@ -111,7 +115,8 @@ class Combination:
     def choose_integrator(self):
         section = time_integration()
         integrator = self.choose("Time integration/Type", *section["Type"]["allowed"].removeprefix("one of ").split(", "))
-        # Explicit methods take a part of their stable step; statics has load steps.
+        # Explicit methods choose a part of their stable step; statics has load
+        # steps.
         self.explicit = "Safety factor" in section.get(integrator, {})
         self.static = "Load steps" in section.get(integrator, {})
         steps = 4
@@ -130,7 +135,8 @@ class Combination:
             self.entries["Damping/" + damping] = 0.1 * factor
 
     def choose_loads(self):
-        # Of traction over modulus: with length over thickness up to 3, bodies bend by some 50 times that.
+        # The load is given as traction over modulus: with length over thickness
+        # up to 3, bodies bend by some 50 times that strain.
         strain = self.random.choice((1e-6, 1e-4, 2e-3))
         scale = f"(t / {self.duration * self.time:.17g})"
         load = self.random.choice(("gravity", "traction", "pressure", "support"))
@@ -148,8 +154,9 @@ class Combination:
         if self.curved:
             self.entries["Boundary conditions/Displacement"] = "x-min: 0; free; free, y-min: free; 0; free, z-min: free; free; 0"
             return
-        # A support that carries the body far away, up to a thousand times its length, in dynamics with an acceleration that bends
-        # it; there the body moves along from the start.
+        # A support carries the body far away, up to a thousand times its
+        # length; in dynamics with an acceleration that bends the body, which
+        # moves along from the start.
         distance, acceleration = 0., 0.
         if load == "support":
             self.supports_move = True
@@ -177,7 +184,7 @@ class Combination:
         self.ranks = self.random.choice((1, 2, 3))
 
     def compare(self, histories):
-        """What differs between the two by more than it may, as lines of text."""
+        """Lines on differences between the two histories that are too large."""
         one, other = histories
         if len(one) != len(other):
             return [f"{len(one)} and {len(other)} rows"]
@@ -203,7 +210,8 @@ class Combination:
             size = max(abs(value(row, name)) for row in one)
             for row, other_row in zip(one, other):
                 allowed = 2 * size * (tolerance / strained if strained > 0 else math.inf)
-                # Of a spring of about the body's stiffness; and of its force, which the support moves.
+                # The energy of a spring with about the body's stiffness, and
+                # the work of its force at the moving support.
                 allowed += spring * {"elastic_energy": left_by_solver, "external_work": moved}.get(name, 0.)
                 if not abs(value(row, name) - value(other_row, name)) <= allowed:
                     differences.append(f"step {row['step']}: {name} {value(row, name)} and {value(other_row, name)} of {size}")
@@ -211,7 +219,7 @@ class Combination:
 
 
 def run(seed, folder):
-    """Computes a combination twice. Returns what is wrong, as lines of text."""
+    """Computes a combination twice. Returns lines on what is wrong."""
     combination = Combination(seed)
     histories = []
     for name, ranks, solver in (("one", 1, combination.reference), ("other", combination.ranks, combination.other)):

@@ -32,25 +32,28 @@ class CommandLine(ProgramTest):
         program = pathlib.Path(os.environ["COROTET_PROGRAM"])
         if not (program.parent / "lib" / "corotet" / "placeholders").exists():
             self.skipTest("built without placeholders")
-        # So the dynamic loader says what it would load.
+        # With this variable the dynamic loader lists the libraries that it
+        # would load.
         loaded = subprocess.run([program], env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}, check=True, capture_output=True, text=True).stdout
         paths = dict(re.findall(r"(\S+) => (\S+)", loaded))
         placeholders = [name for name, path in paths.items() if "/placeholders/" in path]
         for name in ("libgmsh", "libTKernel", "libslepc", "libsundials"):
             self.assertTrue(any(placeholder.startswith(name) for placeholder in placeholders), name)
-        # What only they need: that of a whole CAD program's windows, for one.
+        # Libraries that only these need, such as those of a CAD program's
+        # windows.
         for name in ("libfltk", "libGL.", "libvtk", "libarpack"):
             self.assertFalse([path for path in paths if path.startswith(name)], name)
         self.assertIn("/libdeal.ii", loaded)
 
     def test_huge_pages(self):
-        """Where Linux gives huge pages on request only, the program asks for them, unless the environment chooses for it."""
+        """Where Linux gives huge pages on request only, the program asks for
+        them, unless the environment says otherwise."""
         setting = pathlib.Path("/sys/kernel/mm/transparent_hugepage/enabled")
         if not setting.exists() or "[madvise]" not in setting.read_text(encoding="utf-8"):
             self.skipTest("huge pages are for all, or for none")
         inherited = {name: value for name, value in os.environ.items() if name != "GLIBC_TUNABLES"}
         for chosen, is_huge in (({}, True), ({"GLIBC_TUNABLES": "glibc.malloc.hugetlb=0"}, False)):
-            # So it runs until it is ended.
+            # The run is so long that it does not end before this test ends it.
             run = subprocess.Popen([os.environ["COROTET_PROGRAM"], ROOT / "parameters" / "cantilever.prm", "--output", f"of_{is_huge}", "--quiet",
                                     "--set", "Mesh/box/Cells = 80, 16, 16", "--set", "Time integration/End time = 1e6"],
                                    cwd=self.folder, env={**inherited, **chosen})
@@ -67,7 +70,8 @@ class CommandLine(ProgramTest):
             self.assertEqual(name, "corotet\n")
 
     def test_terminal(self):
-        """A live line with a bar, as wide as the terminal allows, and last lines that say where to look; colours never."""
+        """A terminal shows a live line with a bar, as wide as it allows, and
+        last lines that tell where to look; never colours."""
         for columns, pattern in ((120, r"step \d+, time [^\r]* left \[=* *\]$"), (60, r"step \d+, time [^\r\[]*$")):
             main, terminal = pty.openpty()
             fcntl.ioctl(terminal, termios.TIOCSWINSZ, struct.pack("HHHH", 24, columns, 0, 0))
@@ -78,7 +82,7 @@ class CommandLine(ProgramTest):
             try:
                 while piece := os.read(main, 65536):
                     shown += piece
-            except OSError:  # that of a terminal whose other end is closed
+            except OSError:  # the error of a terminal whose other end is closed
                 pass
             os.close(main)
             self.assertEqual(run.wait(), 0)
@@ -98,7 +102,8 @@ class CommandLine(ProgramTest):
         self.assertRegex(self.run_program("--version").stdout, r"corotet \d+\.\d+\.\d+.*deal\.II \d+\.\d+.*for \S+")
 
     def test_print_parameters(self):
-        # What is printed is a file of defaults: prm and json can be read again, and say the same.
+        # --print-parameters prints a file of defaults: prm and json can be read
+        # again, with the same values.
         prm = self.run_program("--print-parameters", "prm").stdout
         self.assertEqual(self.run_program("--print-parameters").stdout, prm)
         self.assertIn("subsection Time integration", prm)
@@ -109,7 +114,7 @@ class CommandLine(ProgramTest):
             self.run_program(name, "--validate", "--quiet")
 
     def test_print_parameters_of_a_file(self):
-        # Its values, and those of --set.
+        # With a file, its values are printed, and those of --set.
         (self.folder / "beam.prm").write_text("subsection Mesh\n  subsection box\n    set Cells = 4, 1, 1\n  end\nend\n", encoding="utf-8")
         for style in ("prm", "json"):
             text = self.run_program("beam.prm", "--set", "Discretization/Degree = 3", "--print-parameters", style).stdout
@@ -128,20 +133,21 @@ class CommandLine(ProgramTest):
         self.assertEqual(list(self.folder.iterdir()), [], "--validate must not leave anything behind")
 
     def test_validate_where_results_are(self):
-        """They are no mistake of the case, and hide none."""
+        """--validate accepts a case whose output directory has results, with a
+        warning, and still reports mistakes."""
         (self.folder / "case.prm").write_text(parameter_text({**BEAM, "Type": "modes", "Modes/Number": "1"}), encoding="utf-8")
         self.run_program("case.prm", "--output", "results")
         run = self.run_program("case.prm", "--output", "results", "--validate")
         self.assertIn("warning: the output directory 'results' holds results: a run takes another one, or needs Output/Overwrite = true\n", run.stdout)
         self.assertIn("case.prm: valid", run.stdout)
-        # Modes cannot be gone on with.
+        # Modes cannot be continued by --restart, but a simulation could.
         run = self.run_program("case.prm", "--output", "results", "--validate", "--set", "Type = simulation")
         self.assertIn("or needs Output/Overwrite = true or --restart\n", run.stdout)
         run = self.run_program("case.prm", "--output", "results", "--validate", "--set", "Boundary conditions/Fixed = nowhere", status=1)
         self.assertIn("no such boundary: found 'nowhere'", run.stderr)
 
     def test_warning_of_large_results(self):
-        # Rows of 12 characters for each of 20 columns, at least.
+        # A row has at least 12 characters for each of 20 columns.
         for steps, size in ((1e3, None), (1e9, "240"), (2e9, "480")):
             run = self.run_program(ROOT / "parameters" / "cantilever.prm", "--validate", "--set", "Time integration/End time = 1",
                                    "--set", f"Time integration/Time step = {1 / steps!r}")
@@ -156,7 +162,8 @@ class CommandLine(ProgramTest):
         self.assertEqual(run.stdout, "")
 
     def test_words_before_mesh(self):
-        """The command stands first: what is before it would be lost."""
+        """The command `mesh` must be the first word, as options before it would
+        be lost."""
         mesh = ROOT / "meshes" / "l_block.msh"
         for word, found in (("--quiet", "--quiet"), (ROOT / "parameters" / "cantilever.prm", "FILE")):
             run = self.run_program(word, "mesh", mesh, status=1)
@@ -164,7 +171,8 @@ class CommandLine(ProgramTest):
         self.assertIn("99 cells", self.run_program("mesh", mesh).stdout)
 
     def test_mesh_for_a_folder_that_is_not_there(self):
-        """The user's mistake, found before the mesh is made; so are numbers that are none."""
+        """A missing folder is the user's mistake and reported before the mesh
+        is made; so are numbers that are not numbers."""
         mesh = ROOT / "meshes" / "l_block.msh"
         self.assertEqual(self.run_program("mesh", mesh, "--out", "no_where/x.msh", status=1).stderr,
                          "corotet: error: 'no_where/x.msh' cannot be written: there is no folder 'no_where'; allowed is a name in a folder that is there\n")
@@ -174,7 +182,7 @@ class CommandLine(ProgramTest):
             self.assertEqual(self.run_program(*words, status=1).stderr, f"corotet: error: command line: {words[-2]}: found ''; allowed is a name\n")
 
     def test_answers_to_a_full_disk(self):
-        """What nobody gets is no answer."""
+        """An answer that cannot be written is an error."""
         for words in (["--print-parameters", "json"], [ROOT / "parameters" / "cantilever.prm", "--print-parameters"], ["--version"], ["--help"],
                       ["mesh", ROOT / "meshes" / "l_block.msh"], [ROOT / "parameters" / "cantilever.prm", "--validate"]):
             with self.subTest(words), open("/dev/full", "w", encoding="utf-8") as full:
@@ -182,7 +190,8 @@ class CommandLine(ProgramTest):
                 self.assertEqual((run.returncode, run.stderr), (3, "corotet: error: the standard output cannot be written (is the disk full?)\n"))
 
     def test_entries_of_another_type(self):
-        """Those of another kind of run are a mistake where none was chosen, and where one was they are said to do nothing."""
+        """Entries for another type of run are a mistake if no type was chosen;
+        otherwise there is a warning that they have no effect."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         for setting, kind in (("Modes/Number = 3", "modes"), ("Convergence study/Degrees = 1, 2", "convergence study")):
             run = self.run_program("beam.prm", "--validate", "--set", setting, status=1)
@@ -196,7 +205,8 @@ class CommandLine(ProgramTest):
             self.assertEqual(run.stdout.count('no effect on modes: "Checkpoint/Wall time limit"'), warned)
 
     def test_rotations_without_effect(self):
-        """The coarse solver amg knows no rotations of vertices: where they are asked for, that is said; another solver has its own warning."""
+        """The coarse solver amg has no rotations of vertices: if they are
+        requested, there is a warning; other solvers have their own warning."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         section = "Linear solver/p-multigrid/"
         warning = f'no effect, as "{section}Coarse solver" is \'amg\': {section}Vertex rotations'
@@ -208,7 +218,8 @@ class CommandLine(ProgramTest):
                 self.assertEqual(out.count(warning), warned, out)
 
     def test_entries_without_effect(self):
-        """Those that another entry switches off are said to do nothing, with the place."""
+        """For entries that another entry switches off there is a warning with
+        their place."""
         (self.folder / "beam.prm").write_text(parameter_text(BEAM), encoding="utf-8")
         static, adaptive = "Time integration/Type = static", "Time integration/Adaptive step/"
         for setting, unless in (("Time integration/Time step = 0.5", static), (f"{adaptive}Target error = 1e-5", f"{adaptive}Enabled = false"),
@@ -222,7 +233,9 @@ class CommandLine(ProgramTest):
                 self.assertNotIn(entry, out)
 
     def test_make(self):
-        """make hands over names with spaces and quotes as they are, and touches no other folder; in place of the toolchain a script shows its words."""
+        """make passes names with spaces and quotes unchanged, and touches no
+        other folder; a script that prints its arguments replaces the
+        toolchain."""
         toolchain = self.folder / "toolchain"
         toolchain.write_text("""#!/bin/sh\nprintf '[%s]' "$@"\necho\n""", encoding="utf-8")
         toolchain.chmod(0o755)
@@ -248,7 +261,9 @@ class CommandLine(ProgramTest):
         return run.stderr
 
     def test_parameters_to_xml(self):
-        """Parameter files in XML are replaced, files of others if that is wanted, and an old one stays where a new one cannot be written whole."""
+        """Parameter files in XML are replaced, other files only with
+        --overwrite, and an old file stays if the new one cannot be written
+        completely."""
         case = self.folder / "case.prm"
         case.write_text("set Type = modes\n", encoding="utf-8")
         self.assertIn("case.prm exists and is no parameter file in XML; --overwrite replaces it", self.to_xml("case.prm", "--out", "case.prm", status=1))

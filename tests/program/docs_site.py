@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/docs makes a site whose links lead somewhere and that wants no network; and its check of that finds what is wrong.
+"""scripts/docs makes a site whose links all have a target and that needs no
+network; and its check finds mistakes of both kinds.
 
-The site is made without gallery and API, which take longer and have nothing of pages in them. What it must have is what its pages say: a page for each
-section of parameters with the entries that the program has, equations, links from keys to references. In a browser, from the folder and so without any
-network: equations are drawn, the search finds the pages that have a word, the colours are those that the system asks for, and what is loaded is in the site.
+The site is made without gallery and API, which take longer and have no content
+of pages. It must have the content of the pages: a page for each section of
+parameters with the program's entries, equations, links from keys to references.
+In a browser, from the folder and without any network: equations are drawn, the
+search finds the pages that have a word, colours follow the system's setting,
+and all loaded files are in the site.
 """
 
 import os
@@ -40,7 +44,7 @@ class DocsSite(ProgramTest):
         beside.parent.mkdir()
         beside.write_text("kept", encoding="utf-8")
         self.make("--out", site)
-        # Nothing beside it is touched, and nothing is left there.
+        # Nothing beside the site is touched, and no temporary files are left.
         self.assertEqual(beside.read_text(encoding="utf-8"), "kept")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["docs-pages", "site"])
         self.has(site / "doc" / "parameters" / "damping.html", "Stiffness coefficient", "alpha_K [s] of Rayleigh damping", "critical damping at 5 Hz",
@@ -49,13 +53,14 @@ class DocsSite(ProgramTest):
                  'href="references.html#chung1993"')
         self.assertTrue((site / "_static" / "mathjax" / "jax" / "output" / "SVG" / "jax.js").exists())
         self.has(site / "searchindex.js", "A STEP part", "Equations", "Parameter files", "Boundary conditions")
-        # Light and dark, by the system and by the reader, without modules.
+        # The site has a light and a dark style, chosen by the system and by the
+        # reader, without JavaScript modules.
         self.has(site / "_static" / "styles" / "furo.css", 'body[data-theme="dark"]', "body:not([data-theme")
         self.has(site / "_static" / "scripts" / "furo.js", "root.Gumshoe", "cycleThemeOnce")
-        # Commands of README.md are on the page that the site begins with.
+        # The commands of README.md are on the first page of the site.
         self.has(site / "index.html", "make run")
         self.check_in_browser(site)
-        # A folder of something else is not replaced.
+        # A folder that is no site is not replaced.
         other = self.folder / "other"
         other.mkdir()
         (other / "kept.txt").write_text("kept", encoding="utf-8")
@@ -80,7 +85,8 @@ class DocsSite(ProgramTest):
         self.assertGreater(browser.run("return document.querySelectorAll('.math').length"), 100)
         self.assertEqual(browser.messages(), [])
         self.assertEqual([url for url in browser.requests() if not url.startswith(site.as_uri())], [])
-        # Nothing is wider than the screen; the ground is dark, and light when the reader wants it.
+        # Nothing is wider than the screen; the background is dark, and light if
+        # the reader chooses that.
         self.assertLessEqual(browser.run("return document.documentElement.scrollWidth"), 400)
         ground = "return parseInt(getComputedStyle(document.body).backgroundColor.match(/[0-9]+/)[0])"
         self.assertLess(browser.run(ground), 60)
@@ -88,12 +94,13 @@ class DocsSite(ProgramTest):
         self.assertGreater(browser.run(ground), 200)
 
         browser.driver.get((site / "search.html").as_uri() + "?q=dashpots")
-        # Results appear one after another.
+        # Results appear one after another, so the test waits for them.
         found = "const found = [...document.querySelectorAll('#search-results li a')].map((one) => one.textContent);"
         wait_for(f"{found} return ['Equations', 'Supports'].every((title) => found.includes(title))")
 
     def test_check(self):
-        # One mistake of each kind, and what looks like one.
+        # There is one mistake of each kind, and something that only looks like
+        # one.
         (self.folder / "a.html").write_text('<p id="here"><a href="#here">1</a><a href="b.html#there">2</a><a href="https://example.org">3</a>'
                                             '<img src="data:image/png;base64,AAAA"><a href="a%20b.txt?x=1">4</a></p>', encoding="utf-8")
         (self.folder / "a b.txt").write_text("text", encoding="utf-8")
@@ -106,11 +113,13 @@ class DocsSite(ProgramTest):
         for words in ("none.html does not exist", "a.html#nowhere: that page has no such place", "../out.html does not exist",
                       "https://example.org/a.js is loaded from a network", "has a path of this machine", "a module of JavaScript"):
             self.assertTrue(any(words in line for line in found), (words, found))
-        # And the place in b.html that a.html leads to is gone.
+        # One more mistake is that a.html links to a place in b.html that no
+        # longer exists.
         self.assertEqual(len(found), 7, found)
 
     def test_copies(self):
-        # Keys become links, outside of code only; links to parameters and to the first page are those of the site.
+        # Keys become links, but not in code; links to parameters and to the
+        # first page become those of the site.
         text = "As [chung1993, bonet2008, 6.4] say, `[chung1993]`.\n\n    [chung1993]\n"
         changed = sources.outside_code(text, lambda part: sources.with_references(part, "doc/physics.md"))
         self.assertIn("[chung1993](references.md#chung1993), [bonet2008](references.md#bonet2008), 6.4", changed)

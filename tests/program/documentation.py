@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The documentation is true where a program can tell: parameters, columns, links, citations, the list of cases."""
+"""The documentation is correct where a program can check it: parameters,
+columns, links, citations, the list of cases."""
 
 import re
 import sys
@@ -38,7 +39,8 @@ class Documentation(ProgramTest):
                 self.assertTrue(path.exists(), f"{page.name} refers to {path}")
 
     def test_names_of_files(self):
-        # Files of the project, headers by their folder, and targets of make that pages name are there.
+        # Files of the project, headers in their folders, and targets of make
+        # that pages name must exist.
         targets = re.findall(r"^([a-z]+):", (ROOT / "Makefile").read_text(encoding="utf-8"), re.MULTILINE)
         missing = []
         for page in PAGES:
@@ -58,7 +60,8 @@ class Documentation(ProgramTest):
                                                       if str(page.relative_to(ROOT)) != "doc/parameters.md"))
 
     def test_examples(self):
-        # Each section has one, which the program accepts and which sets something in the section; there are no others.
+        # Each section of parameters has an example, which the program accepts
+        # and which sets an entry of the section; there are no others.
         sections = re.findall(r"^## ([^/\n]*)$", (ROOT / "doc" / "parameters.md").read_text(encoding="utf-8"), re.MULTILINE)
         files = [parameter_pages.EXAMPLES / f"{parameter_pages.slug(section)}.prm" for section in sections]
         self.assertEqual(sorted(parameter_pages.EXAMPLES.iterdir()), sorted(files))
@@ -69,7 +72,8 @@ class Documentation(ProgramTest):
             self.run_program(file, "--validate", "--quiet")
 
     def test_tutorial(self):
-        """Code on the library's page is that of the project which a test builds and runs."""
+        """The code on the page about the library is that of the project that a
+        test builds and runs."""
         project = ROOT / "tests" / "external"
         sources = [file.read_text(encoding="utf-8") for file in project.iterdir()]
         blocks = re.findall("```(?:cpp|cmake)\n(.*?)```", (ROOT / "doc" / "library.md").read_text(encoding="utf-8"), re.DOTALL)
@@ -77,7 +81,8 @@ class Documentation(ProgramTest):
         self.assertEqual([block for block in blocks if not any(block in source for source in sources)], [])
 
     def test_citations(self):
-        # Keys are names and years, as in [chung1993, newmark1959] on pages and "@cite chung1993" in comments.
+        # Citations have keys of a name and a year, as in [chung1993,
+        # newmark1959] on pages and "@cite chung1993" in comments.
         keys = set(re.findall(r"@\w+\{(\w+),", (ROOT / "doc" / "references.bib").read_text(encoding="utf-8")))
         cited = set()
         for page in PAGES:
@@ -93,7 +98,8 @@ class Documentation(ProgramTest):
         self.assertEqual([case.name for case in CASES if f"`{case.name}`" not in text], [])
 
     def test_verification(self):
-        # There are a page, with its picture, and a line of the index for each deck, and no others.
+        # Each deck has a page with a picture and a line of the index, and there
+        # are no others.
         decks = sorted(deck.stem for deck in (ROOT / "parameters" / "verification").glob("*.prm"))
         pages = ROOT / "doc" / "verification"
         pictures = ROOT / "doc" / "pictures" / "verification"

@@ -39,11 +39,12 @@ SHORTER = {
     "study": ("Convergence study/Degrees = 1", "Mesh/file/Element size = 15", "Mesh/file/Geometry degree = 1"),
     "swing": ("Discretization/Degree = 1", "Mesh/file/Element size = 15", "Mesh/file/Geometry degree = 1", "Time integration/End time = 0.003"),
 }
-# Of one page: the limit of time must be met by the run; the states that are drawn must be there.
+# Entries for a case on one page only: the run must reach the limit of time; the
+# states that are drawn must exist.
 SHORTER_ON_PAGE = {("doc/pictures.md", "spring"): ("Discretization/Degree = 1", "Time integration/Time step = 0.05", "Time integration/End time = 0.3"),
                    ("doc/command_line.md", "spring"): ("Discretization/Degree = 1", "Time integration/Maximum halvings = 2"),
                    ("doc/command_line.md", "cantilever"): ("Mesh/box/Cells = 6, 1, 1", "Time integration/End time = 0.4")}
-# Of the run on two ranks, with a finer mesh.
+# Entries for the run on two ranks, whose mesh is finer.
 COARSER = {"Mesh/Refinements = 1": ("Discretization/Degree = 1", "Mesh/file/Element size = 15", "Mesh/file/Geometry degree = 1")}
 
 CANTILEVER = "scripts/toolchain build/release/corotet parameters/cantilever.prm"
@@ -54,7 +55,7 @@ BEFORE = {
     "doc/pictures.md": [CANTILEVER, *(CANTILEVER.replace("cantilever", case) for case in ("bracket", "tuning_fork_modes", "spring"))],
     **{f"doc/tutorial/{page}.md": MOUNT for page in ("3_convergence", "4_dynamics", "5_modes", "6_many_ranks")},
 }
-# Pages whose files a page uses.
+# For each page, the pages whose files it uses.
 FILES_OF = {"doc/tutorial/3_convergence.md": ["doc/tutorial/1_step_part.md"], "doc/tutorial/4_dynamics.md": ["doc/tutorial/1_step_part.md"],
             "doc/tutorial/5_modes.md": ["doc/tutorial/1_step_part.md"],
             "doc/tutorial/6_many_ranks.md": ["doc/tutorial/1_step_part.md", "doc/tutorial/4_dynamics.md"]}
@@ -73,25 +74,26 @@ NOT_RUN = {
 
 
 def commands_of(text):
-    """The commands in indented blocks of a page."""
+    """The commands in the indented blocks of a page."""
     text = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
     return re.findall(rf"^ {{4}}({PROGRAMS}.*)$", text, re.MULTILINE)
 
 
 def files_of(page):
-    """{name: text} of the blocks that a sentence calls a file."""
+    """Returns {name: text} of the blocks that a sentence introduces as
+    files."""
     text = (ROOT / page).read_text(encoding="utf-8")
     return dict(re.findall(r"[Aa]s\s`([\w./]+\.\w+)`[:,]\n\n```\w+\n(.*?)^```$", text, re.DOTALL | re.MULTILINE))
 
 
 def without_comment(command):
-    """The command, and the status that its comment says."""
+    """The command, and the exit status that its comment tells."""
     words, _, comment = command.partition(" #")
     return words.strip(), int((re.match(r" status (\d)$", comment) or [0, 0])[1])
 
 
 def shortened(command, page):
-    """The command with what the tables add to it."""
+    """The command with the settings that the tables add to it."""
     words = shlex.split(command)
     case = next((pathlib.Path(word).stem for word in words if word.endswith(".prm")), None)
     if "build/release/corotet" in words and "mesh" not in words and case:
@@ -112,7 +114,8 @@ def settings_of(case):
 
 
 def for_test(text):
-    """Commands without the toolchain, which the test is in already, and with the way to start ranks that tests have."""
+    """The command without the toolchain, in which the test runs already, and
+    with the tests' way to start ranks."""
     return re.sub(r"\bmpirun -n (\d+)", lambda match: shlex.join(launcher(int(match.group(1)))), text.replace("scripts/toolchain ", ""))
 
 
@@ -134,7 +137,8 @@ class DocumentedCommands(ProgramTest):
         return run.stdout
 
     def run_make(self, command, page):
-        """The target is there; and what it does after building."""
+        """Checks that the target exists; returns the command that it runs after
+        building."""
         words = shlex.split(without_comment(command)[0])
         dry = subprocess.run(["make", "--dry-run", *words[1:]], cwd=self.folder, capture_output=True, text=True, check=False)
         self.assertEqual(dry.returncode, 0, f"{page}: {command}\n{dry.stderr}")
@@ -145,7 +149,7 @@ class DocumentedCommands(ProgramTest):
                 self.run_command(f"scripts/report output/{pathlib.Path(case).stem}", page)
 
     def run_page(self, page):
-        """Runs its commands; returns {command: what it printed}."""
+        """Runs the commands of a page; returns {command: output}."""
         for name, text in [item for source in [*FILES_OF.get(page, []), page] for item in files_of(source).items()]:
             path = self.folder / name
             path.parent.mkdir(exist_ok=True)
@@ -166,7 +170,7 @@ class DocumentedCommands(ProgramTest):
         return printed
 
     def test_tables_are_needed(self):
-        # Each reason not to run something is that of a command that there is.
+        # Each entry of NOT_RUN belongs to a command that exists.
         commands = [without_comment(command)[0].removeprefix("scripts/toolchain ")
                     for page in PAGES for command in commands_of(page.read_text(encoding="utf-8"))]
         self.assertEqual([pattern for pattern in NOT_RUN if not any(re.match(pattern, command) for command in commands)], [])
@@ -178,7 +182,7 @@ class DocumentedCommands(ProgramTest):
         self.run_page("doc/verification/patch_degree_1.md")
 
     def test_meshes(self):
-        # In a copy of the folder, as the commands replace its files.
+        # The commands run in a copy of the folder, as they replace its files.
         meshes = self.folder / "copy"
         meshes.mkdir()
         for path in (ROOT / "meshes").glob("*.geo"):
@@ -189,7 +193,7 @@ class DocumentedCommands(ProgramTest):
         self.assertEqual(len(list(meshes.glob("*.msh"))), len(commands))
 
     def test_results(self):
-        # The example in Python prints what history.csv has.
+        # The example in Python prints numbers of history.csv.
         lines = self.run_page("doc/results.md")["scripts/toolchain python3 read.py"].splitlines()
         rows = {float(row["time"]): row for row in read_history(self.folder / "output" / "cantilever")}
         self.assertGreater(len(lines), 2)
@@ -200,7 +204,7 @@ class DocumentedCommands(ProgramTest):
             self.assertEqual(stress > 0, time > 0)
 
     def test_step_part(self):
-        # The page says how far the plate moves, in mm.
+        # The page tells the displacement of the plate [mm].
         page = "doc/tutorial/1_step_part.md"
         self.run_page(page)
         last = read_history(self.folder / "output" / "part")[-1]
@@ -208,7 +212,7 @@ class DocumentedCommands(ProgramTest):
         self.assertIn(f"by {1e3 * float(last['top_x']):.0f} mm sideways and {-1e3 * float(last['top_z']):.1f} mm down", text)
 
     def test_modes_of_part(self):
-        # The page says the frequencies.
+        # The page tells the frequencies.
         page = "doc/tutorial/5_modes.md"
         self.run_page(page)
         f = [float(row["frequency"]) for row in read_modes(self.folder / "output" / "modes")]

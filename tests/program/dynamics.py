@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Motion comes out as theory has it, whatever the degree and the mass. doc/dynamics.md has the figures in full.
+"""Motions agree with theory for any degree and mass. doc/dynamics.md has all
+figures.
 
 - bar_step_load: the front, a jump in theory, is some cells wide, here of 0.04 L, and widens on its way, which rounds the corner
   of the tip's motion: its peak is 2 p L / E to 2 %, and comes at 2 L / c to 2 % and one step, 0.5 %. Behind the front the
@@ -22,7 +23,8 @@ import unittest
 
 from support import ROOT, ProgramTest, parameter_text, read_history, read_summary
 
-# Length 1 m, c = 1 m/s. Sides that move along the bar only make it one-dimensional.
+# Length 1 m, c = 1 m/s. Sides can only move along the bar, which makes it
+# one-dimensional.
 LINEAR_BAR = """
 subsection Mesh
   subsection box
@@ -110,7 +112,8 @@ class Dynamics(ProgramTest):
                     difference = [float(row[f"right_{c}"]) - float(row[f"left_{c}"]) for c in "xyz"]
                     elongation = math.hypot(2 + difference[0], *difference[1:]) / 2 - 1
                     self.assertAlmostEqual(elongation, expected, delta=1e-3 * expected)
-                # A whole revolution, but for the angle by which steps of theta = pi / 100 lag: theta^2 / 12 of it.
+                # The bar has made a whole revolution, less the lag of steps of
+                # theta = pi / 100: theta^2 / 12 of the angle.
                 angle = math.atan2(difference[1], 2 + difference[0])
                 self.assertAlmostEqual(angle, -2 * math.pi * (math.pi / 100)**2 / 12, delta=1e-4)
 
@@ -152,7 +155,7 @@ class Dynamics(ProgramTest):
         self.assertEqual(summary["status"], "failed")
         self.assertIn("the motion is unstable", summary["message"])
         self.assertIn("let 'Steps between estimates' be smaller", summary["message"])
-        # The last row is the last one that was good.
+        # The last row is that of the last good step.
         kinetic, work = self.columns(directory, "kinetic_energy", "external_work")
         self.assertGreater(len(kinetic), 2)
         self.assertEqual(summary["final"]["step"], float(read_history(directory)[-1]["step"]))
@@ -161,20 +164,23 @@ class Dynamics(ProgramTest):
 
 
     def test_unstable_implicit_step(self):
-        """Newmark's method with beta just below 1/6 and steps far above the stable one: what grows is seen, as with explicit steps."""
+        """With beta just below 1/6 and steps far above the stable one,
+        Newmark's method is unstable: the growth is noticed, as with explicit
+        steps."""
         (self.folder / "bar.prm").write_text(parameter_text(IMPLICIT_BAR), encoding="utf-8")
         run = self.run_program("bar.prm", "--output", "grown", status=2)
         summary = read_summary(self.folder / "grown")
         self.assertRegex(summary["message"], "the motion is unstable: the energy is .* J, and .* J have been put in; the time step is too long")
         self.assertIn(summary["message"], run.stderr)
         self.assertEqual(summary["status"], "failed")
-        # The last row is the last one that was good.
+        # The last row is that of the last good step.
         kinetic, elastic, work = self.columns(self.folder / "grown", "kinetic_energy", "elastic_energy", "external_work")
         self.assertLess(abs(kinetic[-1]) + elastic[-1], 1e4 * max(map(abs, work)))
         self.run_program("bar.prm", "--output", "stable", "--set", "Time integration/Newmark/Beta = 0.25")
 
     def test_steps_held_at_the_smallest(self):
-        """Steps that would have to be shorter for their error are counted, and warned of."""
+        """Steps that would have to be shorter for their error are counted, and
+        there is a warning."""
         (self.folder / "bar.prm").write_text(parameter_text({
             "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Young's modulus": "1e7", "Boundary conditions/Fixed": "x-min",
             "Loads/Gravity": "0; 0; -10", "Time integration/Type": "Newmark", "Time integration/Time step": "0.05",

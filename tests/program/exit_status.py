@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Exit statuses 1, 2 and 3, what is said, and what is left behind (status 1 for wrong input: see also tests/errors)."""
+"""Exit statuses 1, 2 and 3, their messages, and the files that remain (for
+status 1 for wrong input see also tests/errors)."""
 
 import hashlib
 import os
@@ -14,7 +15,7 @@ SMALL = ("Mesh/box/Cells = 4, 1, 1", "Discretization/Degree = 1")
 
 
 def fingerprint(directory):
-    """Content and time of change of all files below @p directory."""
+    """The content and time of change of all files below @p directory."""
     return {file: (file.stat().st_mtime_ns, hashlib.sha256(file.read_bytes()).hexdigest())
             for file in directory.rglob("*") if file.is_file()}
 
@@ -33,8 +34,10 @@ class ExitStatus(ProgramTest):
             self.assertIn(part, run.stderr)
 
     def test_failed_computation(self):
-        # After two ordinary steps gravity becomes that of a neutron star: eight iterations are not enough then. At the end
-        # of a part of the step, too, where the last digit of t decides, and the record has to say what the loads were taken at.
+        # After two ordinary steps gravity becomes as strong as on a neutron
+        # star: eight iterations are not enough. This also happens at the end of
+        # a part of the step, where the last digit of t matters, so the record
+        # has to tell the time at which loads were evaluated.
         run = self.run_small("Loads/Gravity = 0; 0; if(t < 0.025, -9.81, -1e12)", "Newton/Maximum iterations = 8",
                              "Time integration/End time = 0.1", "Time integration/Type = backward Euler", status=2)
         self.check_message(run, "step 3", "Newton's method", "halved 8 times")
@@ -46,19 +49,21 @@ class ExitStatus(ProgramTest):
         self.assertIn(summary["message"], run.stderr)
         self.assertEqual((directory / "log.txt").read_text(encoding="utf-8").splitlines()[-1], f"error: {summary['message']}")
         self.assertEqual(summary["final"]["step"], 3)
-        # What could be made of the third step is there.
+        # The part of the third step that succeeded is there.
         self.assertGreater(summary["final"]["time"], 0.02)
         self.assertLess(summary["final"]["time"], 0.025)
 
     def test_load_that_is_not_finite(self):
-        # At the middle of the run only, where no check before the start looks: it is named.
+        # The formula is not finite in the middle of the run only, where no
+        # check before the start evaluates it: the message names it.
         run = self.run_small("Loads/Gravity = 0; 0; if(t > 0.033 && t < 0.066, sqrt(-1), 1)", "Time integration/Maximum halvings = 0",
                              "Time integration/Type = Newmark", "Time integration/Time step = 0.01", "Time integration/End time = 0.1", status=2)
         self.check_message(run, "step 4", "Loads/Gravity", "not finite")
         self.assertEqual(read_summary(self.folder / "results")["steps"], 3)
 
     def test_supports_that_disagree_on_the_way(self):
-        # At the times that are tried before the start they do not.
+        # This motion vanishes at the times that are checked before the start,
+        # but not between.
         run = self.run_small("Boundary conditions/Displacement = z-max: 0; 0.01*sin(2*pi*t/0.04); 0", "Time integration/End time = 0.04",
                              "Time integration/Maximum halvings = 0", status=2)
         self.check_message(run, "step 1 (t = 0): Boundary conditions/")
@@ -66,7 +71,8 @@ class ExitStatus(ProgramTest):
         self.assertEqual((summary["status"], summary["steps"]), ("failed", 0))
 
     def test_failed_check(self):
-        # The run is complete, and the comparison says what is wrong; so on one rank and on two.
+        # The run is complete, and the comparison tells what is wrong, on one
+        # rank and on two.
         checks = ("Verification/Source = none", "Verification/Tolerance reason = none", "Time integration/End time = 0.02",
                   "Verification/Checks = right: last time = 0.02 +- 1e-9 %; wrong: last abs(step) + 1/4 where time > 0 = 2.5 +- 5 %")
         for ranks in (1, 2):
@@ -83,22 +89,25 @@ class ExitStatus(ProgramTest):
 
     def test_failed_computation_on_two_ranks(self):
         run = self.run_small("Newton/Maximum iterations = 1", "Loads/Gravity = 0; 0; -1e12", status=2, ranks=2)
-        # Once, not once per rank; mpirun adds words of its own.
+        # The message comes once, not once per rank; mpirun adds words of its
+        # own.
         self.assertEqual(run.stderr.count("corotet: error: "), 1, run.stderr)
         self.assertEqual(read_summary(self.folder / "results")["status"], "failed")
 
     def test_directory_that_cannot_be_made(self):
-        # Not even root makes a folder there.
+        # Not even root can make a folder there.
         run = self.run_small(output="/proc/corotet", status=3)
         self.check_message(run, "/proc/corotet")
 
     def run_without_rights(self, *arguments):
-        """As a user who owns none of the files; root may read whatever it likes."""
+        """Runs the program as a user who owns none of the files, as root may
+        read all."""
         user = {"user": 65534, "group": 65534, "extra_groups": []} if os.geteuid() == 0 else {}
         return subprocess.run([os.environ["COROTET_PROGRAM"], *arguments], cwd=self.folder, capture_output=True, text=True, check=False, **user)
 
     def test_files_that_must_not_be_read(self):
-        """Parameter files, those that they include, meshes; and files in folders that must not be looked into."""
+        """Parameter files, included files and meshes without permission; and
+        files in folders without permission."""
         self.folder.chmod(0o755)
         (self.folder / "locked").mkdir()
         for name in ("closed.prm", "closed.json", "closed.msh", "locked/a.prm", "locked/a.msh"):
@@ -123,7 +132,7 @@ class ExitStatus(ProgramTest):
         self.check_message(run, "results")
         self.assertEqual(fingerprint(self.folder), before)
 
-        # On demand results are replaced, but nothing else is.
+        # On request results are replaced, but nothing else is.
         self.run_small(short, "Output/Overwrite = true")
         self.assertNotEqual(fingerprint(self.folder), before)
         (self.folder / "results" / "letter.txt").write_text("not a result", encoding="utf-8")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/export: what was written is read back, by VTK's, PyVista's and meshio's readers where there are, and compared with the run's own numbers, which
-VTK's reader of the time series and history.csv have."""
+"""scripts/export: written files are read back by VTK's, PyVista's and meshio's readers where these exist, and compared with the run's own
+numbers in history.csv and in the time series as VTK reads it."""
 
 import csv
 import importlib.util
@@ -27,12 +27,12 @@ from commands import is_ours
 from support import limit_files, read_history, read_modes
 
 SINGLE = 1e-6  # relative; single precision has 6e-8, and sums of some thousand numbers lose a digit
-# A rule for tetrahedra that is exact for polynomials of degree 3, as the volume of quadratic ones needs: points and weights.
+# A rule for tetrahedra, points and weights, that is exact for polynomials of degree 3, as the volume of quadratic cells requires.
 KEAST = [((1 / 4,) * 3, -4 / 30)] + [((a, b, c), 9 / 120) for a, b, c in ((1 / 6,) * 3, (1 / 2, 1 / 6, 1 / 6), (1 / 6, 1 / 2, 1 / 6), (1 / 6, 1 / 6, 1 / 2))]
 
 
 def volume(state):
-    """Of the displaced body, by the derivatives of VTK's own cells."""
+    """The volume of the displaced body, by the derivatives of VTK's own cells."""
     total, places = 0, state.displaced()
     for i, nodes in enumerate(state.cells):
         cell, derivatives = state.grid.GetCell(i), np.zeros(3 * len(nodes))
@@ -53,7 +53,7 @@ def area(points, triangles):
 
 
 class Glb:
-    """A binary glTF file, its structure checked on the way."""
+    """A binary glTF file whose structure is checked while it is read."""
 
     def __init__(self, test, path):
         content = path.read_bytes()
@@ -71,7 +71,7 @@ class Glb:
             if "min" in accessor:
                 test.assertEqual((np.atleast_1d(data.min(axis=0)).tolist(), np.atleast_1d(data.max(axis=0)).tolist()), (accessor["min"], accessor["max"]))
         self.primitive = self.json["meshes"][0]["primitives"][0]
-        # What the format asks for.
+        # The format requires bounds of positions.
         for attributes in [self.primitive["attributes"], *self.primitive.get("targets", [])]:
             test.assertIn("min", self.json["accessors"][attributes["POSITION"]])
         self.base = {name: self.read(i) for name, i in self.primitive["attributes"].items()}
@@ -89,7 +89,7 @@ class Glb:
         return data if width == 1 else data.reshape(-1, width)
 
     def animation(self, number):
-        """Times, and a row of weights for each."""
+        """The times of an animation, and a row of weights for each time."""
         sampler = self.json["animations"][number]["samplers"][0]
         times = self.read(sampler["input"])
         return times, self.read(sampler["output"]).reshape(len(times), -1)
@@ -128,7 +128,7 @@ class Export(ScriptTest):
         self.assertEqual((list(one.point_data), list(one.cell_data)), (["stress"], []))
 
     def test_csv(self):
-        """All digits: the table has the numbers themselves."""
+        """The table has all digits of the numbers."""
         self.start(self.runs / "beam", "--to", "csv")
         for i, row in enumerate(self.history()):
             with open(self.folder / f"beam_{i:04d}.csv", newline="", encoding="utf-8") as file:
@@ -140,12 +140,12 @@ class Export(ScriptTest):
                 np.testing.assert_array_equal(np.stack([table[f"{name}_{part}"] for part in ("xx", "yy", "zz", "xy", "yz", "xz")], axis=1), state.point_data[name])
             np.testing.assert_array_equal(table["von_mises"], state.point_data["von_mises"])
             displacement = np.stack([table[f"displacement_{part}"] for part in "xyz"], axis=1)
-            # The root of a sum of three squares, by another program.
+            # Another program computes the root of the sum of three squares, so the last digit may differ.
             self.assertAlmostEqual(np.linalg.norm(displacement, axis=1).max(), row["max_displacement"], delta=1e-15)
 
     def test_stl(self):
-        """Closed, seen from outside; of a box, at rest, with its volume and area; else with a volume whose error falls with the square
-        of the size of triangles, as it does for the chords of curves."""
+        """The surface is closed and faces outwards; for a box at rest it has the exact volume and area; otherwise the error of the volume
+        decreases with the square of the size of triangles, as for chords of curves."""
         self.start(self.runs / "beam", "--to", "stl", "--times", 0, "--out", "rest.stl")
         mesh = pv.read(self.folder / "rest.stl").clean()
         self.assertAlmostEqual(enclosed(mesh.points, mesh.regular_faces) / 0.01, 1, delta=SINGLE)
@@ -156,10 +156,10 @@ class Export(ScriptTest):
             mesh = pv.read(self.folder / "bent.stl").clean()
             errors.append(1 - enclosed(mesh.points, mesh.regular_faces) / self.history()[-1]["volume"])
             sides = mesh.regular_faces[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-            # Each edge is there once in each direction.
+            # Each edge occurs once in each direction.
             self.assertEqual(len(np.unique(sides, axis=0)), len(sides))
             self.assertEqual(set(map(tuple, sides.tolist())), {(b, a) for a, b in sides.tolist()})
-            # 6 x 1 x 1 cuboids have 26 squares outside, each of two faces.
+            # 6 x 1 x 1 cuboids have 26 squares outside, each of two triangles.
             self.assertEqual(len(mesh.regular_faces), 52 * n**2)
         for coarse, fine in zip(errors, errors[1:]):
             self.assertAlmostEqual(coarse / fine, 4, delta=0.5)
@@ -180,7 +180,8 @@ class Export(ScriptTest):
         for value, colour in ((sizes.min(), 0.0), (sizes.max(), 1.0)):
             expected = matplotlib.colormaps["viridis"](colour)[:3]
             np.testing.assert_allclose(rows[np.isclose(sizes, value)][0, 3:], expected, atol=1e-8)
-        # What is a number of something jumps from triangle to triangle, which have vertices of their own then: the cells at an end are another region.
+        # Values of cells jump from triangle to triangle, which then have vertices of their own: here the cells at one end are another
+        # region.
         parts = self.run_case("cantilever", "parts", "Time integration/End time = 0.01", "Mesh/box/Cells = 6, 1, 1", "Discretization/Degree = 2",
                               "Selections/Regions = end: box 0.5 -1 -1 2 1 1")
         self.start(parts, "--to", "obj", "--field", "region", "--times", 0, "--warp", 0, "--out", "parts.obj")
@@ -193,7 +194,7 @@ class Export(ScriptTest):
         np.testing.assert_allclose(rows[~is_end][:, :, 3:], np.broadcast_to(matplotlib.colormaps["viridis"](0.0)[:3], ((~is_end).sum(), 3, 3)), atol=1e-8)
 
     def test_gltf(self):
-        """Each state is a morph target that counts fully at its time, with the run's largest displacement and volume."""
+        """Each state is a morph target with full weight at its time, with the run's largest displacement and volume."""
         self.start(self.runs / "beam", "--to", "gltf", "--field", "displacement")
         file, times = Glb(self, self.folder / "beam.glb"), times_of(self.runs / "beam")
         self.assertEqual(len(file.targets), len(times))
@@ -202,16 +203,16 @@ class Export(ScriptTest):
         np.testing.assert_array_equal(weights, np.eye(len(times)))
         for row, target in zip(self.history(), file.targets):
             self.assertAlmostEqual(np.linalg.norm(target["POSITION"], axis=1).max(), row["max_displacement"], delta=SINGLE * row["max_displacement"])
-            # Straight triangles, two for each edge of a cell: test_stl has how that error vanishes.
+            # Triangles are straight, two for each edge of a cell: test_stl checks how that error decreases.
             places = file.base["POSITION"] + target["POSITION"]
             self.assertAlmostEqual(enclosed(places, file.triangles) / row["volume"], 1, delta=1e-3)
             normals = file.base["NORMAL"] + target["NORMAL"]
             np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1, atol=SINGLE)
-        # Sides of the box at rest are flat, though its vertices are there more than once for that.
+        # The sides of the box at rest are flat, as vertices at its edges are repeated for each side.
         self.assertTrue((np.sort(abs(file.base["NORMAL"]), axis=1) == (0, 0, 1)).all())
-        # Colours are intensities: the largest displacement of all is yellow, that of the support violet.
+        # Colours are intensities: the largest displacement is yellow, and that of the support violet.
         colours = file.base["COLOR_0"] + file.targets[-1]["COLOR_0"]
-        # Those of the mesh are the largest of all states, which are those of the last one here.
+        # The mesh has the colours of the largest values of all states, which are those of the last state here.
         np.testing.assert_allclose(colours, file.base["COLOR_0"], atol=SINGLE)
         self.assertGreater(abs(file.targets[0]["COLOR_0"]).max(), 0.5)
         tip = np.linalg.norm(file.targets[-1]["POSITION"], axis=1).argmax()
@@ -220,8 +221,8 @@ class Export(ScriptTest):
             np.testing.assert_allclose(colours[vertex], expected, atol=2e-3)
 
     def test_times_of_gltf(self):
-        """From the first state on, whatever its time: the format has no times below 0, and those of this run differ by less than single precision has
-        at its start. States are told apart even where nothing could."""
+        """Times begin at zero with the first state: the format has no negative times, and single precision could not tell the times of
+        this run apart. States have different times even where they are equal after rounding."""
         late = self.runs / "late"
         if not late.exists():
             shutil.copytree(self.runs / "beam", late)
@@ -239,9 +240,9 @@ class Export(ScriptTest):
         self.assertTrue((np.diff(keys) > 0).all() and keys[0] == 0 and keys[-1] == 1, keys)
 
     def test_gltf_by_vtk(self):
-        """VTK's reader takes the file, and has the run's displaced body at a time of the run."""
+        """VTK's reader accepts the file, and gives the run's displaced body at a time of the run."""
         self.start(self.runs / "beam", "--to", "gltf")
-        # It has no colours of morph targets, and says so for each.
+        # That reader has no colours of morph targets, and warns for each.
         vtkLogger.SetStderrVerbosity(vtkLogger.VERBOSITY_ERROR)
         reader = vtkGLTFReader()
         reader.SetFileName(str(self.folder / "beam.glb"))
@@ -260,7 +261,7 @@ class Export(ScriptTest):
             np.testing.assert_allclose((found.min(), found.max()), (expected.min(), expected.max()), atol=1e-6)
 
     def test_gltf_of_modes(self):
-        """Each mode is a target with an animation of its own, named by its frequency; without --field one state is a plain mesh."""
+        """Each mode is a target with its own animation, named by its frequency; one state without --field is a plain mesh."""
         self.start(self.runs / "plate", "--to", "gltf", "--warp", 1, "--seconds", 2)
         file, modes = Glb(self, self.folder / "plate.glb"), read_modes(self.runs / "plate")
         names = [f"mode {i}: {float(mode['frequency']):.5g} Hz" for i, mode in enumerate(modes, start=1)]
@@ -270,7 +271,7 @@ class Export(ScriptTest):
             self.assertEqual((keys[0], keys[-1]), (0, 2))
             np.testing.assert_allclose(weights, np.outer(np.sin(np.pi * keys), np.arange(len(modes)) == i), atol=SINGLE)
             state = state_of(self.runs / "plate", i)
-            # Nodes on the sides of the plate; inside some move farther.
+            # Only nodes on the sides of the plate are compared, as nodes inside may move farther.
             shape = state.point_data["displacement"][np.isclose(state.points / (10, 10, 1), (0.5, 0.5, 0), atol=0.499).all(axis=1) == 0]
             self.assertAlmostEqual(np.linalg.norm(target["POSITION"], axis=1).max() / np.linalg.norm(shape, axis=1).max(), 1, delta=SINGLE)
         self.start(self.runs / "beam", "--to", "gltf", "--times", 0.15, 0.3, "--split")
@@ -297,8 +298,8 @@ class Export(ScriptTest):
                 np.testing.assert_array_equal(cell_data["cells_von_mises"][0], state.cell_data["von_mises"])
 
     def test_xdmf_of_cubic_cells(self):
-        """27 straight tetrahedra on the nodes of each: all nodes are used, none is inside out, and with the displaced nodes their volume
-        is that of the curved ones to 1 %, the error of chords of 10 degrees."""
+        """The nodes of each cubic cell make 27 straight tetrahedra: all nodes are used, no tetrahedron is inverted, and with the
+        displaced nodes their volume is that of the curved cells to 1 %, the error of chords of 10 degrees."""
         self.start(self.runs / "sphere", "--to", "xdmf")
         state = state_of(self.runs / "sphere", -1)
         with TimeSeriesReader(self.folder / "sphere.xdmf") as reader:
@@ -355,16 +356,17 @@ class Export(ScriptTest):
             ((beam, "--to", "csv", "--times", "0:0.3:99999999999"), "found the times 0:0.3:99999999999; allowed are up to 100000")))
 
     def test_times_between(self):
-        """FROM:TO are the states between, ends included; not the nearest ones outside."""
+        """FROM:TO selects the states between, ends included, and not the nearest ones outside."""
         self.start(self.runs / "beam", "--to", "csv", "--times", "0.04:0.15", "--field", "displacement")
         names = [path.name for path in self.folder.glob("*.csv")]
         self.assertEqual(sorted(names), [f"beam_{i:04d}.csv" for i in range(4)])
-        # A value below zero is no option, however it is written.
+        # A negative value is not taken for an option, however it is written.
         for factor in ("-1e-3", "-0.001", "-.001"):
             self.start(self.runs / "beam", "--to", "stl", "--times", "0.3", "--warp", factor)
 
     def test_missing_part(self):
-        """Of a long run the states of files that others refer to, not solution.vtkhdf itself: one that is missing or damaged is no state of zeros."""
+        """In a long run, states are in files that other files than solution.vtkhdf refer to: if one is missing or damaged, that is an
+        error and not a state of zeros."""
         run = self.run_case("cantilever", "long", *LONG)
         path = run / "solution" / "step_000005.h5"
         with h5py.File(run / "solution.vtkhdf") as file:
@@ -377,7 +379,7 @@ class Export(ScriptTest):
             self.check_mistakes([(("long", "--to", "csv", "--times", "0.05"), f"long/solution.vtkhdf is damaged: solution/{path.name}: {message}")])
 
     def test_beside_the_results(self):
-        """States are never put into the folder of the run, though names are those of the run; nor into that of another one."""
+        """States are never written into the folder of the run, though names are those of the run, nor into that of another run."""
         shutil.copytree(self.runs / "beam", self.folder / "beam")
         before = sorted((self.folder / "beam").rglob("*"))
         self.start("beam", "--to", "vtu")
@@ -389,27 +391,27 @@ class Export(ScriptTest):
                              (("other_vtu", "--to", "vtu", "--out", "file.pvd"), "file_vtu cannot be a folder for the states: it is a file")))
 
     def test_full_disk(self):
-        """Status 3, one line, and no file that is not whole."""
+        """On a full disk there are status 3, one line, and no incomplete files."""
         for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv"):
             with self.subTest(kind=kind):
                 self.start(self.runs / "beam", "--to", kind, status=3, preexec_fn=limit_files)
                 self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_own_files(self):
-        """They are known, so that they may be replaced."""
+        """The script recognises files that it has written, so that they can be replaced."""
         for kind in ("gltf", "vtu", "stl", "obj", "xdmf", "csv", "csv"):
             self.start(self.runs / "beam", "--to", kind, "--times", 0, 0.3)
         files = [path for path in self.folder.rglob("*") if path.is_file()]
         self.assertEqual(len(files), 1 + 3 + 2 + 2 + 2 + 2)
         self.assertEqual([path for path in files if not is_ours(path)], [])
-        # Of a longer series nothing is left that would look like a part of a later one, but what is not ours.
+        # Files of a longer series that would look like a part of the new one are removed, but no files of others.
         (self.folder / "beam_0012.obj").write_text("of someone else")
         for kind in ("vtu", "stl", "obj", "csv"):
             for n in (4, 3):
                 self.start(self.runs / "beam", "--to", kind, "--times", f"0:0.3:{n}")
         endings = [path.name for path in self.folder.rglob("beam_0*") if path.suffix != ".glb"]
         self.assertEqual(sorted(endings), sorted([f"beam_{i:04d}.{kind}" for kind in ("vtu", "stl", "obj", "csv") for i in range(3)] + ["beam_0012.obj"]))
-        # Nothing is left of what was under way.
+        # No temporary files are left.
         self.assertEqual([path.name for path in self.folder.iterdir() if path.name.startswith(".")], [])
 
 

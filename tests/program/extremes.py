@@ -41,7 +41,8 @@ VIBRATING_SUPPORT = {**box("0.1, 0.01, 0.01", "10, 1, 1", 1, 7e10, 0.3, 2700), *
 class Extremes(ProgramTest):
 
     def run_entries(self, entries, name, ranks):
-        """Runs a parameter file of these entries; returns the run and its output directory."""
+        """Runs a parameter file with these entries; returns the run and its
+        output directory."""
         (self.folder / f"{name}.prm").write_text(parameter_text(entries), encoding="utf-8")
         output = self.folder / f"{name}_{ranks}"
         run = self.run_program(f"{name}.prm", "--output", output, ranks=ranks)
@@ -49,7 +50,8 @@ class Extremes(ProgramTest):
         return run, output
 
     def test_falling_steel(self):
-        # It must be where g t^2 / 2 is, to 1e-9, with one iteration a step at most: what is left is round-off.
+        # The block must have fallen by g t^2 / 2, to 1e-9, with at most one
+        # iteration for each step, as the rest is round-off.
         for ranks in RANKS:
             run, output = self.run_entries(FALLING_STEEL, "steel", ranks)
             rows = read_history(output)
@@ -59,11 +61,11 @@ class Extremes(ProgramTest):
                 self.assertLessEqual(abs(float(row["max_displacement"]) - fallen), 1e-9 * fallen)
                 self.assertLessEqual(int(row["newton_iterations"]), 1)
                 self.assertLessEqual(int(row["parts"]), 1)
-            # Said once.
+            # The message appears once.
             self.assertEqual(run.stdout.count("round-off ended Newton's iterations"), 1, run.stdout)
 
     def test_two_materials(self):
-        # A beam, half steel and half rubber, that swings on its soft end.
+        # This beam, half steel and half rubber, swings on its soft end.
         for ranks in RANKS:
             output = self.run_case("two_materials", f"beam_{ranks}", "Boundary conditions/Fixed = right",
                                    "Time integration/End time = 0.4", "Output/Time between results = 10", ranks=ranks)
@@ -71,10 +73,12 @@ class Extremes(ProgramTest):
             self.assertEqual(float(read_history(output)[-1]["parts"]), 1)
 
     def test_linear_statics_that_end_without_forces(self):
-        # Of beam theory: F L^3 / (3 E I), to which six quadratic cells come close.
+        # Beam theory gives the deflection F L^3 / (3 E I), to which six
+        # quadratic cells are close.
         deflection = 4 * 200 / (1e7 * 0.125 ** 2)
         conditions = "Boundary conditions/"
-        # Where the support moves, forces of the cells that are crushed at it do not count: further solves take what is left of them.
+        # If the support moves, forces of cells that are crushed at it do not
+        # count: further solves remove their rest.
         cases = (("unload", {conditions + "Fixed": "x-min", conditions + "Traction": "x-max: 0; 0; 200 * triangle(t, 0, 1)"}, deflection, 0.05, {1}),
                  ("carry", {conditions + "Displacement": "x-min: 0; 0; 0.1 * triangle(t, 0, 1)"}, 0.1, 1e-11, {2, 3}))
         for name, conditions, largest, tolerance, solves in cases:
@@ -84,12 +88,15 @@ class Extremes(ProgramTest):
                 self.assertLessEqual({int(row["newton_iterations"]) for row in rows[1:]}, solves)
                 middle, last = (float(rows[k]["max_displacement"]) for k in (2, 4))
                 self.assertAlmostEqual(middle, largest, delta=tolerance * largest)
-                # The linear solver's tolerance, times what a slender body may make of a residual.
+                # The bound is the linear solver's tolerance, times the
+                # amplification of residuals in a slender body.
                 self.assertLessEqual(last, 1e-5 * largest)
 
     def test_long_explicit_steps(self):
-        # A bar that is pulled at once goes to twice its static length and back, in 4 L / c; cells of degree 1 smear the
-        # wave's front, which takes 2.3, 1.5, 1.0 % of the peak with 8, 16, 32 of them: the power 2/3 of their size.
+        # A bar that is pulled suddenly stretches to twice its static length and
+        # back, in 4 L / c. Cells of degree 1 smear the front of the wave, which
+        # reduces the peak by 2.3, 1.5, 1.0 % with 8, 16, 32 of them: the power
+        # 2/3 of their size.
         static = 1e4 * 2e6 / 5e10
         for ranks in RANKS:
             rows = read_history(self.run_entries(ROCK, "rock", ranks)[1])
@@ -100,18 +107,19 @@ class Extremes(ProgramTest):
             self.assertAlmostEqual(float(rows[first]["time"]), 2 * 2e6 / math.sqrt(5e10 / 3000), delta=60)
 
     def test_small_numbers(self):
-        # The same beam in nanometres and in metres.
+        # The same beam is computed in nanometres and in metres.
         unit = 1e7 * math.sqrt(1e12 / 2200)
         metres = read_modes(self.run_entries(beam(1, 0.1, 1, 1), "metres", 1)[1])
         entries = beam(1e-7, 1e-8, 1e12, 2200)
         for ranks in RANKS:
             for small, large in zip(read_modes(self.run_entries(entries, "nanometres", ranks)[1]), metres, strict=True):
                 ratio = float(small["frequency"]) / float(large["frequency"])
-                # Residuals of 1e-6 are errors of 1e-12 in frequencies; numbers have ten digits or more.
+                # Residuals of 1e-6 are errors of 1e-12 in frequencies; files
+                # have ten digits or more.
                 self.assertAlmostEqual(ratio / unit, 1, delta=1e-9)
 
     def test_vibrating_support(self):
-        # What happens first does not depend on how long the run is.
+        # The first steps do not depend on how long the run is.
         for ranks in RANKS:
             short = read_history(self.run_entries({**VIBRATING_SUPPORT, "Time integration/End time": 5e-5}, "short", ranks)[1])
             long = read_history(self.run_entries({**VIBRATING_SUPPORT, "Time integration/End time": 5e-4}, "long", ranks)[1])

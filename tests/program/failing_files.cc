@@ -12,9 +12,9 @@
 // COROTET_TEST_COUNT  file that gets the number of operations at the end
 // Operations are: opening, writing, changing the size, bringing to the disk,
 // closing what was written, renaming, making a folder, removing.
-// COROTET_TEST_MODE = "memory": the operations are allocations of 16 KiB or
+// With COROTET_TEST_MODE = "memory" the operations are allocations of 16 KiB or
 // more (those of fields and files) from the first chosen file on instead, and
-// that one fails.
+// one of them fails. With "no locks" only locks fail.
 
 #ifndef _GNU_SOURCE
 #  define _GNU_SOURCE
@@ -93,7 +93,7 @@ namespace
     return true;
   }
 
-  // Counts an operation; whether it has to fail, then with this error.
+  // Counts an operation, and tells whether it has to fail, with this error.
   bool
   fails(const int error)
   {
@@ -133,7 +133,7 @@ namespace
     ~Counter()
     {
       const char *path = setting("COROTET_TEST_COUNT");
-      // Of all ranks, rank 0 has the most.
+      // Rank 0 has the most operations of all ranks.
       const char *rank = setting("OMPI_COMM_WORLD_RANK");
       if (*path == '\0' || !is_chosen_rank() ||
           (std::strcmp(setting("COROTET_TEST_RANK"), "all") == 0 &&
@@ -218,7 +218,7 @@ extern "C"
   COROTET_FTRUNCATE(ftruncate)
   COROTET_FTRUNCATE(ftruncate64)
 
-  // It is closed all the same.
+  // The file is closed also if the operation fails.
   int
   close(int descriptor)
   {
@@ -249,7 +249,7 @@ extern "C"
   }
   COROTET_SYNC(fsync)
 
-  // As file systems that are set up without locks.
+  // With "no locks" locks fail as on file systems without them.
   int
   flock(int descriptor, int operation) noexcept
   {
@@ -279,11 +279,11 @@ extern "C"
   COROTET_REMOVE(unlink)
   COROTET_REMOVE(remove)
 
-  // glibc's own: dlsym() allocates itself.
+  // glibc's own function is used, as dlsym() itself allocates memory.
   void *
   __libc_malloc(size_t size);
 
-  // What operator new and deal.II's vectors call.
+  // operator new and deal.II's vectors call these functions.
   void *
   malloc(size_t size)
   {

@@ -24,7 +24,7 @@ from checkpoints import IMPLICIT, different, results_of, rows_without_time
 
 CASE = {**IMPLICIT, "Mesh/box/Cells": "2, 1, 1", "Discretization/Degree": "1", "Time integration/End time": "0.16",
         "Checkpoint/Steps between checkpoints": "3", "Output/Directory": ""}
-# Fields that are large enough to be counted.
+# The fields of this case are large enough for their allocations to be counted.
 MEMORY_CASE = {**CASE, "Mesh/box/Cells": "12, 4, 4", "Discretization/Degree": "2", "Time integration/End time": "0.08"}
 MODES = ("once", "from", "kill", "memory")
 MESSAGE = re.compile(r"corotet: error: (.*)")
@@ -56,7 +56,7 @@ class Faults(ProgramTest):
         return preload, n, rows_without_time(results), results_of(results)
 
     def try_one(self, preload, ranks, number, history, series):
-        """How the run with that failure ended."""
+        """Makes the run with that failure; returns its outcome."""
         results = self.folder / "results"
         shutil.rmtree(results, ignore_errors=True)
         status, errors = self.start(ranks, COROTET_TEST_FROM=number, **preload)
@@ -92,7 +92,8 @@ class Faults(ProgramTest):
             self.sample(mode, 2, 3)
 
     def test_no_locks(self):
-        """File systems of clusters may have no locks: the run says so, and goes on."""
+        """File systems of clusters may have no locks: the run warns and goes
+        on."""
         (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in CASE.items() if value}), encoding="utf-8")
         status, errors = self.start(1, LD_PRELOAD=os.environ["COROTET_FAILING_FILES"], COROTET_TEST_RANK="all", COROTET_TEST_FROM=10**9,
                                     COROTET_TEST_FILES="/results", COROTET_TEST_MODE="no locks", ASAN_OPTIONS="verify_asan_link_order=0")
@@ -101,7 +102,7 @@ class Faults(ProgramTest):
                       (self.folder / "results" / "log.txt").read_text(encoding="utf-8"))
 
     def test_old_checkpoint_stays(self):
-        """A checkpoint that is no longer needed and cannot be removed does not end the run."""
+        """An old checkpoint that cannot be removed does not end the run."""
         settings = {**CASE, "Checkpoint/Keep": "1"}
         (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in settings.items() if value}), encoding="utf-8")
         environment = {"LD_PRELOAD": os.environ["COROTET_FAILING_FILES"], "COROTET_TEST_RANK": "all", "COROTET_TEST_MODE": "once",
@@ -112,7 +113,7 @@ class Faults(ProgramTest):
         old = results / "checkpoint" / "step_000003.json"
         self.assertFalse(old.exists())
         shutil.rmtree(results)
-        # The last operation on it removes it.
+        # The last operation on the old checkpoint removes it.
         status, errors = self.start(1, COROTET_TEST_FROM=int(count.read_text(encoding="utf-8")), **environment)
         self.assertEqual(status, 0, errors)
         self.assertIn("step_000003.json: an old checkpoint cannot be removed: Permission denied",
@@ -120,7 +121,9 @@ class Faults(ProgramTest):
         self.assertFalse(old.exists())
 
     def test_failed_step(self):
-        """Of a step that fails, and then a file that cannot be written, both are said: who makes room knows what is to come."""
+        """If a step fails, and then a file cannot be written, both are
+        reported, so that a user who makes room on the disk knows of the
+        step."""
         case = {**CASE, "Newton/Maximum iterations": "1", "Loads/Gravity": "0; 0; -1e12"}
         (self.folder / "case.prm").write_text(parameter_text({name: value for name, value in case.items() if value}), encoding="utf-8")
         for ranks in (1, 2):

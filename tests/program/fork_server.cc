@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Runs the program as often as it is asked to, each time in a new child of this
-// process, which has loaded the program's some two hundred libraries once: that
-// takes most of the time of a short run. Nothing else has happened before in a
-// child, so it is what the program itself would be.
+// Runs the program on request, each time in a new child of this process, which
+// has loaded the program's two hundred or so libraries once: that takes most of
+// the time of a short run. This process has done nothing else before, so a
+// child behaves like the program itself.
 //
 // Requests are lines of JSON on standard input: "arguments" (the first is the
 // program's name), "folder" (where to run), "output" and "errors" (files for
@@ -40,7 +40,7 @@ namespace
 
 
 
-  // In the child. Ends it as main() would.
+  // Runs the program in the child, and ends it as main() would.
   [[noreturn]] void
   run(const nlohmann::json &request)
   {

@@ -50,7 +50,8 @@ namespace
   }
 } // namespace
 
-// Function MPI_NAME: adds so many items to its kind, and does what it does.
+// Defines the function MPI_NAME: it adds so many items to its kind, and calls
+// the original function.
 #define COUNTED(kind, count, type, name, parameters, arguments) \
   int MPI_##name parameters                                     \
   {                                                             \

@@ -17,14 +17,14 @@ EXPLICIT = {**BODY, "Discretization/Mass": "diagonal scaling", "Time integration
             "Time integration/Time step": "1e-5", "Time integration/End time": "1e-4"}
 IMPLICIT = {**BODY, "Time integration/Type": "generalized-alpha", "Time integration/Time step": "1e-2", "Time integration/End time": "0.1"}
 STATIC = {**BODY, "Material/Type": "linear", "Time integration/Type": "static", "Newton/Residual tolerance": "0.1"}
-# The body is long: the ranks' parts of it lie in a row.
+# The body is long, so the ranks' parts lie in a row.
 MOST_NEIGHBOURS = 2
 
 
 class Messages(ProgramTest):
 
     def count(self, ranks, case):
-        """Calls of each kind, for each rank, and the summary."""
+        """The calls of each kind for each rank, and the summary."""
         (self.folder / "case.prm").write_text(parameter_text(case), encoding="utf-8")
         counts = self.folder / "messages"
         run = run_on(ranks, ["case.prm", "--output", self.folder / "results", "--quiet"], self.folder, 120,
@@ -37,7 +37,8 @@ class Messages(ProgramTest):
         return of_ranks, read_summary(self.folder / "results")
 
     def each(self, ranks, short, long, number):
-        """What each of number(summary) takes, the most of any rank."""
+        """The calls of each kind for each unit of number(summary), the most of
+        any rank."""
         (few, first), (many, second) = self.count(ranks, short), self.count(ranks, long)
         n = number(second) - number(first)
         self.assertGreater(n, 4)
@@ -52,17 +53,21 @@ class Messages(ProgramTest):
                 self.assertLessEqual(found[kind], most, f"{kind} on {ranks} ranks")
 
     def test_explicit_steps(self):
-        # Ghosts get displacements and give forces.
+        # Each rank receives displacements of ghosts and sends forces.
         nothing = {"reductions": 0, "gathers": 0, "exchanges": 0, "barriers": 0}
         self.check_steps({**EXPLICIT, "Output/Steps between rows": "1000"}, {"messages": 2 * MOST_NEIGHBOURS, **nothing})
 
     def test_rows_of_the_history(self):
-        # The work of the step; what else the row has; whether the step's support moves, probes, and whether a signal has come.
+        # The reductions and the gather are those for the work of the step,
+        # other columns of the row, whether a support moves, probes, and whether
+        # a signal has come.
         self.check_steps(EXPLICIT, {"messages": 4 * MOST_NEIGHBOURS, "reductions": 5, "gathers": 1, "exchanges": 0, "barriers": 0})
 
     def test_states(self):
-        # A row for each state. Beside what the row takes: the file, the places of its tables, whether all have written and whether it got
-        # its name, and whether the index was written; and values of ghosts for the results of cells.
+        # Each state also has a row. A state needs more messages: for the file,
+        # the positions in its tables, whether all ranks have written and the
+        # file was renamed, whether the index was written, and ghost values for
+        # results of cells.
         row = {**EXPLICIT, "Output/Time between results": "0"}
         without = self.each(3, EXPLICIT, {**EXPLICIT, "Time integration/End time": "3e-4"}, lambda summary: summary["steps"])
         for ranks in (3, 8):
@@ -72,7 +77,8 @@ class Messages(ProgramTest):
                 self.assertLessEqual(found[kind] - without[kind], most, kind)
 
     def check_iterations(self, case, messages):
-        # Conjugate gradients have two sums; rank 0 gathers the unknowns of the last level and scatters them.
+        # Conjugate gradients have two sums; rank 0 gathers the unknowns of the
+        # last level and scatters the result.
         for ranks in (3, 8):
             found = self.each(ranks, {**case, "Linear solver/Tolerance": "1e-2"}, {**case, "Linear solver/Tolerance": "1e-11"},
                               lambda summary: summary["final"]["linear_iterations"])
@@ -84,20 +90,26 @@ class Messages(ProgramTest):
         self.check_iterations(STATIC, 20)
 
     def test_iterations_of_aggregation(self):
-        # The operator has two. The level has two in the smoother that starts from zero, one for the residual, three in the other smoother,
-        # and one each for the unknowns of aggregates there and back.
+        # Messages to each neighbour: the operator has two. The level has two in
+        # the smoother that starts from zero, one for the residual, three in the
+        # other smoother, and one in each direction for the unknowns of
+        # aggregates.
         self.check_iterations({**STATIC, "Discretization/Degree": "1", "Linear solver/p-multigrid/Coarse solver": "aggregation"}, 10)
 
     def test_implicit_steps(self):
-        # Flexible conjugate gradients have two sums, too. All else: two iterations of Newton's method, with a residual before, after the
-        # first and after the second (2 sums), linearizations (1), norms of increments and of right hand sides (4); and the row.
+        # Flexible conjugate gradients have two sums, too. The other sums are
+        # those of two iterations of Newton's method, with residuals before,
+        # after the first and after the second iteration (2 sums),
+        # linearizations (1), norms of increments and of right hand sides (4);
+        # and those of the row.
         for ranks in (3, 8):
             few, first = self.count(ranks, {**IMPLICIT, "Time integration/End time": "0.1"})
             many, second = self.count(ranks, {**IMPLICIT, "Time integration/End time": "0.2"})
             steps = second["steps"] - first["steps"]
             gathers = max(b["gathers"] - a["gathers"] for a, b in zip(few, many))
             reductions = max(b["reductions"] - a["reductions"] for a, b in zip(few, many))
-            # A gather and a scatter in each iteration, as above, and one in each step.
+            # There are a gather and a scatter in each iteration, as above, and
+            # one gather in each step.
             iterations = (gathers - steps) / 2
             others = (reductions - 2 * iterations) / steps
             print(f"{ranks} ranks, each step: {iterations / steps} iterations, {others} other reductions")

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Type = modes: results on one and two ranks, and of a computation that fails.
+"""Type = modes: results on one and two ranks, and those of a failed
+computation.
 
 Eigenvalues are exact to the square of the tolerance of the residuals, 1e-8: on one and two ranks they agree to 1e-10, whatever
 the order of sums. The frequency of a rigid body mode is round-off, which must be far below that of the first other mode.
@@ -22,15 +23,18 @@ CUBES = {"Type": "modes", "Mesh/Type": "file", "Mesh/file/File": "cubes.msh", "D
 
 
 def mesh_of_cubes(number):
-    """Of side 1 and 2 apart along x, each of 24 tetrahedra: pyramids on its sides, in quarters."""
+    """A mesh of cubes with sides of 1, at distances of 2 along x, of 24
+    tetrahedra each: pyramids on its sides, in quarters."""
     corners = list(itertools.product((0, 1), repeat=3))
     sides = list(itertools.product(range(3), (0, 1)))
     places = [*corners, (0.5, 0.5, 0.5), *([end if a == axis else 0.5 for a in range(3)] for axis, end in sides)]
     nodes = [(2 * cube + x, y, z) for cube in range(number) for x, y, z in places]
-    # On each side, its middle and neighbouring corners: those that differ in one number.
+    # A quarter of a side has its middle and two neighbouring corners, which
+    # differ in one number.
     quarters = [(side, 10 + i, j + 1, k + 1) for i, side in enumerate(sides) for j, a in enumerate(corners) for k, b in enumerate(corners)
                 if j < k and a[side[0]] == b[side[0]] == side[1] and sum(map(abs, map(operator.sub, a, b))) == 1]
-    # Seen from the last corner, the others turn to the left.
+    # Seen from the last vertex of a cell, its other vertices are ordered
+    # counterclockwise.
     quarters = [(side, a, b, c) if np.linalg.det(np.subtract([places[n - 1] for n in (a, b, c)], places[8])) < 0 else (side, a, c, b)
                 for side, a, b, c in quarters]
     elements = [(4, 1, [n + len(places) * cube for n in (*quarter, 9)]) for cube in range(number) for _, *quarter in quarters]
@@ -57,19 +61,22 @@ class Modes(ProgramTest):
             self.assertAlmostEqual(first, second, delta=1e-10 * first)
         self.check_vtkhdf(one)
         self.check_vtkhdf(two)
-        # The stress of the fourth mode, which has a frequency of its own: its error is that of the residual, 1e-8.
+        # The fourth mode has a frequency of its own, so its stress has the
+        # error of the residual, 1e-8.
         first, second = (self.stresses(directory)[3] for directory in (one, two))
         self.assertLess(abs(first - second).max(), 1e-6 * first.max())
 
     @staticmethod
     def stresses(directory):
-        """A row for each mode: the cells' stresses, by size, as ranks number cells in their own way."""
+        """A row of stresses of cells for each mode, sorted, as the order of
+        cells depends on ranks."""
         with h5py.File(directory / "solution.vtkhdf") as file:
             n_modes = file["VTKHDF/Steps"].attrs["NSteps"]
             return np.sort(np.reshape(file["VTKHDF/CellData/von_mises"], (int(n_modes), -1)))
 
     def test_loads_are_left_out(self):
-        # The log says so, and frequencies are those without the loads.
+        # The log says that loads have no effect, and frequencies are those
+        # without loads.
         free = self.run_case("plate_modes", "free", *SMALLER)
         loaded = self.run_case("plate_modes", "loaded", *SMALLER, "Loads/Gravity = 0; 0; -10")
         self.assertEqual(read_modes(free), read_modes(loaded))
@@ -87,7 +94,8 @@ class Modes(ProgramTest):
             self.assertIn(summary["message"], run.stderr)
 
     def test_equal_bodies(self):
-        # As a cube bends to two sides alike, six have the lowest frequency twelve times, and few of its modes are wanted.
+        # A cube bends to two sides alike, so six cubes have the lowest
+        # frequency twelve times, of which only some modes are requested.
         (self.folder / "cubes.prm").write_text(parameter_text(CUBES), encoding="utf-8")
         lowest = None
         for cubes, number in ((1, 1), (6, 4), (7, 3)):
@@ -101,7 +109,9 @@ class Modes(ProgramTest):
                 self.assertAlmostEqual(frequency, lowest, delta=1e-10 * lowest)
 
     def test_springs_as_soft_as_round_off(self):
-        """A steel bar on springs that are 1e-17 times as stiff: their modes are round-off of its own, which is said; on ones of 1e-10 they are not."""
+        """A steel bar on springs that are 1e-17 times as stiff: frequencies of
+        its rigid motions are round-off, which a warning tells; with a ratio of
+        1e-10 they are not."""
         bar = {"Type": "modes", "Mesh/box/Size": "1, 0.1, 0.1", "Mesh/box/Cells": "4, 1, 1", "Material/Young's modulus": "2e11",
                "Material/Density": "7800", "Modes/Number": "8"}
         for stiffness, n_warned in ((20, 0), (2e-6, 6)):
@@ -110,7 +120,8 @@ class Modes(ProgramTest):
             self.assertEqual(run.stdout.count("as little as round-off: its frequency may be wrong"), n_warned)
 
     def test_overwrite(self):
-        # Results of modes are replaced by those of a simulation, and nothing is left of them.
+        # Results of modes are replaced by those of a simulation, without
+        # remains.
         directory = self.run_case("plate_modes", "results", *SMALLER)
         self.run_case("gravity_linear", "results", "Output/Overwrite = true", "Time integration/static/Load steps = 1")
         self.assertFalse((directory / "modes.csv").exists())

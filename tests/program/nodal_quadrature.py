@@ -3,9 +3,11 @@
 # Copyright (C) 2026 by the corotet authors
 """The quadratic element with bubbles and its diagonal mass, from the parameter file to the results.
 
-The mesh of the cantilever has 12 x 2 x 2 boxes with five cells each. With bubbles there are nodes on all faces and in all cells
-more, and what is written for VTK leaves them out. The beam falls as it does with the consistent mass on the same cells; the
-functions that it has more make it softer by what the error of the coarse mesh is. Two ranks agree with one as in ranks.py.
+The mesh of the cantilever has 12 x 2 x 2 boxes with five cells each. Bubbles
+add nodes on all faces and in all cells, which files for VTK leave out. The beam
+falls as with the consistent mass on the same cells; the additional functions
+make it softer, by about the error of the coarse mesh. Two ranks agree with one
+as in ranks.py.
 """
 
 import unittest
@@ -31,7 +33,8 @@ class NodalQuadrature(ProgramTest):
             plain, summary = self.tips(f"plain_{number}", rotation)
             found, with_bubbles = self.tips(f"bubbles_{number}", rotation, BUBBLES)
             self.assertEqual(with_bubbles["nodes"], summary["nodes"] + N_CELLS + N_FACES)
-            # Lumping keeps the whole: sums of 240 cells.
+            # Lumping keeps the total mass, to the round-off of sums over 240
+            # cells.
             self.assertAlmostEqual(with_bubbles["total_mass"], 10, delta=1e-12)
             difference = max(abs(a - b) for a, b in zip(found, plain))
             print(f"{placement}: tip at {found[-1]:.6f} m, without bubbles at {plain[-1]:.6f} m, largest difference {difference:.2e} m")

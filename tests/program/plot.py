@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/plot: columns of history.csv as a picture; scripts/draw_study: those of study.csv."""
+"""scripts/plot draws columns of history.csv, and scripts/draw_study those of
+study.csv."""
 
 import csv
 import re
@@ -33,7 +34,7 @@ class Plot(ProgramTest):
         self.plot("one", "other", "tip_z", "--log", "--size", "4", "2", "--range", "0.01", "0.03", "--out", "both.png")
         pictures = [matplotlib.image.imread(self.folder / name) for name in ("one.png", "both.png")]
         self.assertEqual([picture.shape[:2] for picture in pictures], [(600, 600), (300, 600)])
-        # The colours of the first three lines, and of the first two.
+        # Each picture has the colours of its first three, or two, lines.
         for picture, n_lines in zip(pictures, (3, 2)):
             for colour in ((0x1f, 0x77, 0xb4), (0xff, 0x7f, 0x0e), (0x2c, 0xa0, 0x2c))[:n_lines]:
                 is_line = abs(picture[:, :, :3] * 255 - colour).max(axis=2) < 1
@@ -46,7 +47,7 @@ class Plot(ProgramTest):
         self.assertIn("no column 'middle_z' in any history.csv", self.plot("one", "other", "middle_z", status=1).stderr)
 
     def test_legend(self):
-        """Runs of the same name are told apart by their paths."""
+        """Runs with the same name are distinguished by their paths."""
         for folder in ("a/run", "b/run", "other"):
             self.run_case("cantilever", folder, *CASE)
         for runs, names in ((("a/run", "b/run"), {"a/run", "b/run"}), (("a/run", "other"), {"run", "other"})):
@@ -80,7 +81,8 @@ class Plot(ProgramTest):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["begun", "empty", "modes", "one", "study"])
 
     def test_files_that_are_there(self):
-        """Its own are replaced, those of others if that is wanted; what cannot be written whole leaves the old one as it was."""
+        """The script replaces its own files, other files only with --overwrite,
+        and an old file stays if the new one cannot be written completely."""
         self.run_case("cantilever", "one", *CASE)
         for name in ("plot.png", "plot.pdf", "plot.svg"):
             with self.subTest(name=name):
@@ -113,7 +115,8 @@ class DrawStudy(ProgramTest):
         return {path.name: path.read_bytes() for path in (self.folder / "study").glob("study_*")}
 
     def write(self, **errors):
-        """A table of two runs, the second one on cells of half the size, with these errors in both."""
+        """Writes a table of two runs with these errors; the second run has
+        cells of half the size."""
         (self.folder / "study").mkdir()
         with open(self.folder / "study" / "study.csv", "w", newline="", encoding="utf-8") as file:
             table = csv.writer(file)
@@ -122,7 +125,8 @@ class DrawStudy(ProgramTest):
                 table.writerow([1, i, "done", 1 / 2**i, 10 * 8**i, 1 + i, *(pair[i] for pair in errors.values())])
 
     def test_names(self):
-        """Norms have small letters, and quantities, which may differ in capitals alone, their own."""
+        """Names of files have norms in small letters; quantities keep their
+        letters, as two may differ in capitals only."""
         self.write(L2=(1, 0.25), tip_z=(1, 0.5), TIP_z=(1, 0.125))
         self.draw()
         names = [f"study_{name}_over_{abscissa}.{ending}" for name in ("l2", "tip_z", "TIP_z") for abscissa in ("h", "dofs", "wall_time")
@@ -132,7 +136,8 @@ class DrawStudy(ProgramTest):
         self.assertNotEqual(pictures["study_tip_z_over_h.png"], pictures["study_TIP_z_over_h.png"])
 
     def test_errors_of_zero(self):
-        """They have no place on a logarithmic scale: no picture, and nothing is said."""
+        """Errors of zero have no place on a logarithmic scale: there is no
+        picture and no message."""
         self.write(L2=(0, 0), tip_z=(0, 0.5))
         self.draw()
         self.assertEqual({name.split("_over_")[0] for name in self.pictures()}, {"study_tip_z"})

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The same parameter file on one and on two ranks gives the same results.
+"""The same parameter file gives the same results on one and on two ranks.
 
 What differs is the order of sums and the linear solver's error. With a linear tolerance of 1e-11 and Newton's of 1e-10, the
 histories must agree to 1e-8 relative: each column to the largest value in it (in its three components, for vectors), the
@@ -19,7 +19,8 @@ MAY_DIFFER = {"newton_iterations", "linear_iterations", "wall_time"}
 
 
 def group(column):
-    # Zero but for round-off, this with the rotation of the quadrature points: in the same unit, what they are made of.
+    # These columns are zero up to round-off (moments only with rotations at
+    # quadrature points), so they are compared with a quantity of the same unit.
     if column == "energy_balance" or column.startswith("internal_moment"):
         return "external_work"
     return re.sub("_[xyz]$", "", column)
@@ -28,11 +29,12 @@ def group(column):
 class Ranks(ProgramTest):
 
     def test_report(self):
-        # The script that makes it must not wait for the other rank.
+        # The script that makes the page runs on rank 0 and must not wait for
+        # the other rank.
         for ranks in (1, 2):
             run = self.run_case("cantilever", f"page{ranks}", "Time integration/End time = 0.03", ranks=ranks, more=("--report",))
             self.assertIn("</html>", (run / "report.html").read_text(encoding="utf-8"))
-        # It is one of the results, which may be replaced.
+        # The page is one of the results, which may be replaced.
         self.run_case("cantilever", "page1", "Time integration/End time = 0.02", "Output/Overwrite = true")
         self.assertFalse((self.folder / "page1" / "report.html").exists())
 
@@ -64,7 +66,8 @@ class Ranks(ProgramTest):
         self.assertRegex(log, r"PT-Scotch: \d+ faces between ranks, along the curve \d+")
 
     def solutions(self, all_ranks, degree, cells, solver):
-        """Of linear statics of a beam: what summaries say about the end, by ranks."""
+        """The final entries of the summary for linear statics of a beam, by
+        ranks."""
         case = {"Mesh/Type": "box", "Mesh/box/Size": "4, 1, 1", "Mesh/box/Cells": cells, "Discretization/Degree": str(degree),
                 "Material/Type": "linear", "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -1",
                 "Time integration/Type": "static", "Output/Overwrite": "true", "Linear solver/Type": "p-multigrid",
@@ -78,14 +81,16 @@ class Ranks(ProgramTest):
         return found
 
     def test_iterations(self):
-        # What a rank owns is no limit for the solver: they are the same but for the places where aggregates end.
+        # The solver does not depend on the parts of ranks: iterations differ
+        # only because aggregates end at their borders.
         for degree, cells in ((1, "32, 8, 8"), (2, "16, 4, 4"), (3, "16, 4, 4")):
             found = {ranks: end["linear_iterations"] for ranks, end in self.solutions((1, 2, 7), degree, cells, "aggregation").items()}
             print(f"degree {degree}: {found}")
             self.assertLessEqual(max(found.values()), found[1] + 2)
 
     def test_ranks_without_nodes(self):
-        # Of 12 cells, a rank has one or two, whose nodes all belong to others.
+        # With 12 cells, a rank has one or two, and all nodes of some ranks
+        # belong to others.
         for degree in (1, 2, 3):
             for solver in ("direct", "aggregation"):
                 found = self.solutions((1, 5, 8), degree, "2, 1, 1", solver)
@@ -93,7 +98,8 @@ class Ranks(ProgramTest):
                     self.assertAlmostEqual(end["elastic_energy"] / found[1]["elastic_energy"], 1, delta=1e-9, msg=f"{degree} {solver} {ranks}")
 
     def test_vertex_dilatation(self):
-        """What depends on two layers of cells around a node, in steps of either kind, with each solver."""
+        """Dilatation at vertices depends on two layers of cells around a node:
+        explicit and implicit steps, with each solver."""
         case = {"Mesh/Type": "box", "Mesh/box/Size": "4, 1, 1", "Mesh/box/Cells": "8, 2, 2", "Discretization/Degree": "1",
                 "Material/Dilatation": "vertices", "Material/Poisson's ratio": "0.49", "Boundary conditions/Fixed": "x-min",
                 "Loads/Gravity": "0; 0; -9.81", "Time integration/End time": "0.1", "Output/Probes": "tip: 4 1 1",
@@ -111,7 +117,8 @@ class Ranks(ProgramTest):
                 self.assertAlmostEqual(tip / tips[1], 1, delta=1e-8, msg=f"{more} {ranks}")
 
     def test_curved_cells(self):
-        """Laws that quadrature does not integrate exactly: a straight cell must not be taken for a curved one because it is beside one."""
+        """Quadrature is not exact for these laws, so a straight cell must not
+        use the rule of curved cells because it is beside one."""
         case = {"Mesh/Type": "gmsh", "Mesh/gmsh/File": ROOT / "meshes" / "sphere_octant.geo", "Mesh/gmsh/Geometry degree": "2",
                 "Mesh/gmsh/Element size": "0.5", "Discretization/Degree": "2", "Material/Young's modulus": "1", "Output/Probes": "inside: 1 0 0",
                 "Boundary conditions/Displacement": "x-min: 0; free; free, y-min: free; 0; free, z-min: free; free; 0",
@@ -132,7 +139,8 @@ class Ranks(ProgramTest):
                 ends.append(read_history(self.folder / "results")[-1])
             for end in ends:
                 for name in ("inside_x", "elastic_energy", "min_det_F", "volume"):
-                    # Round-off of the solution, which statics finds by 1e-11, and of explicit steps.
+                    # The tolerance is the round-off of the solution, which
+                    # statics finds to 1e-11, and of explicit steps.
                     self.assertAlmostEqual(float(end[name]) / float(ends[0][name]), 1, delta=1e-10, msg=f"{law} {name}")
 
     @unittest.skipUnless(has_preconditioner("amg"), "built without Epetra")

@@ -35,8 +35,10 @@ class Reactions(ProgramTest):
             self.assertAlmostEqual(a, b, delta=tolerance)
 
     def test_equilibrium(self):
-        """Of linear elasticity at rest forces and moments of loads and supports cancel, whatever the mesh: up to the solver's 1e-8."""
-        # Weight 200 N in the middle, 100 N along y on the end face of 0.02 m^2.
+        """In linear elasticity at rest forces and moments of loads and supports
+        cancel for any mesh, to the solver's 1e-8."""
+        # The weight is 200 N in the middle, and 100 N act along y on the end
+        # face of 0.02 m^2.
         loads = {"Material/Type": "linear", "Boundary conditions/Traction": "x-max: 0; 5000; 0", "Newton/Residual tolerance": "1e-12"}
         for degree in (1, 2, 3):
             for ranks in (1, 2):
@@ -44,11 +46,13 @@ class Reactions(ProgramTest):
                     self.run_entries({**STATIC, **loads, **CLAMP, "Discretization/Degree": degree}, ranks=ranks)
                     row = self.last_row()
                     self.assert_close(vector(row, "clamp_reaction"), (0, -100, 200), 1e-5)
-                    # Against (0.5, 0.1, 0.05) x (0, 0, -200) and (1, 0.1, 0.05) x (0, 100, 0).
+                    # The moments of loads are (0.5, 0.1, 0.05) x (0, 0, -200)
+                    # and (1, 0.1, 0.05) x (0, 100, 0).
                     self.assert_close(vector(row, "clamp_reaction_moment"), (20 + 5, -100, -100), 1e-5)
 
     def test_several(self):
-        """What is held at two ends, and an edge of one of them: the sum is that of all, and an edge has less than its side."""
+        """A body held at two ends: their reactions sum to the total reaction,
+        and an edge of an end has less than the end."""
         entries = {**STATIC, "Boundary conditions/Fixed": "x-min, x-max", "Output/Probes": "tip: 0.5 0.1 0.05",
                    "Output/Reactions": "left: x-min, right: x-max, edge: x-min & z-min, corner: x-min & z-min & y-min"}
         self.run_entries(entries)
@@ -56,7 +60,7 @@ class Reactions(ProgramTest):
         left, right, edge, corner = (vector(row, f"{name}_reaction")[2] for name in ("left", "right", "edge", "corner"))
         self.assertAlmostEqual(left + right, 200, delta=1e-4)
         self.assertAlmostEqual(left + right, vector(row, "reaction")[2], delta=1e-9)
-        # The cells are not symmetric.
+        # The mesh is not symmetric, so both ends differ a little.
         self.assertAlmostEqual(left, 100, delta=1)
         self.assertLess(abs(corner), abs(edge))
         self.assertLess(abs(edge), 200)
@@ -68,7 +72,8 @@ class Reactions(ProgramTest):
         self.assertEqual(read_summary(self.folder / "out")["final"]["left_reaction_z"], left)
 
     def test_motion(self):
-        """Of the only support it is that of all, in every row, with inertia and damping; a rank without a node of it adds nothing."""
+        """All supports together have the total reaction, in every row, with
+        inertia and damping; a rank without a node of a support adds nothing."""
         for method in ("generalized-alpha", "implicit midpoint", "Newmark", "central difference"):
             entries = {**DYNAMIC, **CLAMP, "Time integration/Type": method,
                        "Boundary conditions/Displacement": "x-max: free; free; 0.02*t^2"}
@@ -83,14 +88,15 @@ class Reactions(ProgramTest):
                     self.assertGreater(len(rows), 3)
                     for row in rows:
                         both = [a + b for a, b in zip(vector(row, "clamp_reaction"), vector(row, "end_reaction"))]
-                        # Sums in another order.
+                        # The sums have another order.
                         self.assert_close(both, vector(row, "reaction"), 1e-9 * max(map(abs, both)))
                     found.append([vector(rows[-1], f"{name}_reaction{what}") for name in ("clamp", "end") for what in ("", "_moment")])
             for one, two in zip(*found):
                 self.assert_close(one, two, 1e-5 * max(map(abs, one)))
 
     def test_restart(self):
-        """A run that goes on has the same columns to the last digit, and others are refused."""
+        """A restarted run has the same columns to the last digit, and a change
+        of Output/Reactions is refused."""
         entries = {**DYNAMIC, **CLAMP, "Checkpoint/Steps between checkpoints": "4", "Checkpoint/Keep": "10"}
         self.run_entries(entries)
         names = [f"clamp_{what}_{c}" for what in ("reaction", "reaction_moment") for c in "xyz"]
@@ -104,7 +110,7 @@ class Reactions(ProgramTest):
         self.assertIn("Output/Reactions", run.stderr)
 
     def test_study(self):
-        """They are quantities of studies, too."""
+        """Reactions are quantities of studies, too."""
         self.run_entries({**STATIC, **CLAMP, "Material/Type": "linear", "Type": "convergence study", "Convergence study/Degrees": "1, 2",
                           "Convergence study/Refinements": "0", "Convergence study/Reference": "none", "Convergence study/Pictures": "false",
                           "Convergence study/Quantities": "clamp_reaction_z: 200"})
@@ -129,7 +135,8 @@ class Reactions(ProgramTest):
         self.assertIn("'a_reaction' cannot be a probe's name; columns of supports end with _reaction", run.stderr)
 
     def test_modes(self):
-        """Shapes have no size, and nothing acts: the log says that there are none."""
+        """Mode shapes have no size, and nothing acts: the log says that there
+        are no reactions."""
         run = self.run_entries({**BEAM, **CLAMP, "Type": "modes"}, "--validate")
         self.assertIn('no effect on modes: "Output/Reactions"', run.stdout)
 

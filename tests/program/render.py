@@ -30,12 +30,14 @@ def pixels(path):
 
 
 def is_body(picture):
-    """All colours of the map have a component below 140; pixels at edges count if about half of them is the body's."""
+    """Which pixels show the body: all colours of the map have a component below
+    140, and pixels at edges count if the body covers about half."""
     return (picture < 140).any(axis=2)
 
 
 def extent(picture):
-    """Of the body: columns and rows from, to (not included)."""
+    """The extent of the body: first and last column, first and last row (the
+    last ones not included)."""
     rows, columns = np.nonzero(is_body(picture))
     return columns.min(), columns.max() + 1, rows.min(), rows.max() + 1
 
@@ -48,19 +50,22 @@ class Render(ScriptTest):
             return dict(image.text)
 
     def test_legend(self):
-        """Its range is that of the recovered stress at all nodes, its colours are those of the map from end to end, and so are the body's."""
+        """The range of the legend is that of the recovered stress at all nodes;
+        its colours are those of the whole map, and so are the body's."""
         said = self.start(self.runs / "beam", *SMALL)
         picture, notes = pixels(self.folder / "render.png"), self.notes("render.png")
         self.assertEqual(picture.shape, (300, 400, 3))
         stress = state_of(self.runs / "beam", -1).point_data["von_mises"]
         self.assertEqual((notes["Field"], notes["Title"], notes["Time"]), ("von_mises", "von Mises stress [kPa]", "300 ms"))
-        # Round-off of a factor of 1e-3.
+        # The tolerance is the round-off of the factor 1e-3.
         np.testing.assert_allclose([float(end) for end in notes["Range"].split()], [stress.min() / 1e3, stress.max() / 1e3], rtol=1e-15)
         self.assertIn(f"{stress.max() / 1e3:.3g}", said)
         bar = picture[300 - round(4.3 * FONT) + 3, 80:320]
         expected = 255 * matplotlib.colormaps["viridis"](np.linspace(0, 1, 240))[:, :3]
         np.testing.assert_allclose(bar, expected, atol=0.5)
-        # Largest at the clamped end, above and below; shading makes colours darker, but yellow stays yellow and violet violet.
+        # The displacement is zero at the clamped end and largest at the tip;
+        # shading makes colours darker, but yellow stays yellow and violet
+        # violet.
         self.start(self.runs / "beam", *SMALL, *BARE, "--camera", "front", "--warp", "0", "--field", "displacement")
         body = pixels(self.folder / "render.png")
         left, right, top, bottom = extent(body)
@@ -69,7 +74,8 @@ class Render(ScriptTest):
         self.assertLess(tip[2], 0.5 * tip[1])
 
     def test_size_of_the_body(self):
-        """The body fills the picture up to the margins, in the ratio of its displaced bounding box: pixels at its edges may be counted or not."""
+        """The body fills the picture up to the margins, in the proportions of
+        its displaced bounding box; pixels at edges may count or not."""
         self.start(self.runs / "beam", *SMALL, *BARE, "--camera", "front")
         left, right, top, bottom = extent(pixels(self.folder / "render.png"))
         places = state_of(self.runs / "beam", -1).displaced()
@@ -80,12 +86,14 @@ class Render(ScriptTest):
         self.assertAlmostEqual(bottom - top, scale * size[2], delta=2)
         self.assertAlmostEqual((left + right) / 2, 200, delta=1.5)
         self.assertAlmostEqual((top + bottom) / 2, 150, delta=1.5)
-        # The same from where only positions tell: three times as high a picture shows it at a third.
+        # With the same view from an explicit position, a picture of three times
+        # the height shows the body at a third of its size.
         middle = (places.min(axis=0) + places.max(axis=0)) / 2
         self.start(self.runs / "beam", *SMALL, *BARE, "--position", middle[0], middle[1] - 5, middle[2], "--focus", *middle, "--height", 3 * 300 / scale)
         small = extent(pixels(self.folder / "render.png"))
         self.assertAlmostEqual(small[1] - small[0], (right - left) / 3, delta=2)
-        # In perspective that height is in the middle of what is seen, which the beam's near side, 0.05 of 5.6 before it, differs from by 1 %.
+        # With perspective the height holds at the middle of the view; the
+        # beam's near side, 0.05 of 5.6 nearer, differs by 1 %.
         self.start(self.runs / "beam", *SMALL, *BARE, "--camera", "front", "--perspective", "--height", 3 * 300 / scale)
         small = extent(pixels(self.folder / "render.png"))
         self.assertAlmostEqual(small[1] - small[0], (right - left) / 3, delta=3)
@@ -100,12 +108,14 @@ class Render(ScriptTest):
             area = is_body(picture).sum() / scale**2
             self.assertAlmostEqual(area / (np.pi * radius**2 / 4), 1, delta=2e-3)
             self.assertAlmostEqual(extent(picture)[1] - extent(picture)[0], radius * scale, delta=3)
-        # Light falls on a plane alike, but for highlights, and the cut covers all that is behind it; pixels at edges are lighter.
+        # Light is the same on all of a plane, except for highlights, and the
+        # cut covers all that is behind it; pixels at edges are lighter.
         colours = picture[is_body(picture)]
         self.assertGreater((abs(colours - np.median(colours, axis=0)).max(axis=1) < 10).mean(), 0.99)
 
     def test_time_and_repetition(self):
-        """Pictures change with time; the same one again has the same bytes, and on another number of processes."""
+        """Pictures change with time; a repeated picture has the same bytes,
+        also with another number of processes."""
         self.start(self.runs / "beam", *SMALL, "--times", 0.09, 0.18, 0.3, "--out", "several.png", "--out", "several.gif", "--jobs", 1)
         first = {path.name: path.read_bytes() for path in self.folder.glob("several*")}
         self.assertEqual(sorted(first), ["several.gif", "several_0001.png", "several_0002.png", "several_0003.png"])
@@ -115,7 +125,8 @@ class Render(ScriptTest):
         self.assertEqual(first, {path.name: path.read_bytes() for path in self.folder.glob("several*")})
 
     def test_films(self):
-        """All have a frame for each state, their size and time; an MP4's sizes are even."""
+        """All films have a frame for each state, with their size and time;
+        sizes of an MP4 are even."""
         outs = [word for kind in ("gif", "webp", "mp4") for word in ("--out", f"film.{kind}")]
         self.start(self.runs / "beam", "--size", 321, 241, "--fps", 10, "--field", "rotation_angle", *outs)
         n = len(times_of(self.runs / "beam"))
@@ -138,7 +149,8 @@ class Render(ScriptTest):
         self.assertEqual(found, ["h264", "yuv420p", 322, 242, str(n), "10/1"])
 
     def test_modes(self):
-        """A film of modes swings in the first one that deforms the body: displaced most after a quarter and three quarters, to opposite sides."""
+        """A film of modes shows the first one that deforms the body: it is
+        displaced most after a quarter and three quarters, to opposite sides."""
         self.start(self.runs / "plate", *SMALL, "--swing", 4, "--out", "mode.png", "--without", "time")
         frames = [pixels(self.folder / f"mode_000{i}.png") for i in (1, 2, 3, 4)]
         self.assertIn("mode 4: ", self.notes("mode_0001.png")["Time"])
@@ -150,24 +162,27 @@ class Render(ScriptTest):
             self.assertEqual(film.n_frames, 24)
 
     def test_numbers(self):
-        """Three digits, or whole numbers; never a power of ten in place of one."""
+        """Numbers have three digits, or are whole; never with a power of ten
+        instead."""
         self.assertEqual([number_text(value) for value in (0, 999.4, 999.7, -999.7, 1234.4, 12345, 0.00123)],
                          ["0", "999", "999.7", "\N{MINUS SIGN}999.7", "1234", "1.234e+4", "0.00123"])
 
     def test_round_factors(self):
-        """Of modes the ratio is a power of ten but for the round-off of their scale, on either side."""
+        """For modes the ratio of scales is a power of ten up to round-off, on
+        either side."""
         for ratio, factor in ((10, 10), (np.nextafter(10, 0), 10), (np.nextafter(10, 20), 10), (9.99, 5), (4.99, 2), (2, 2), (1.9, 1), (0.05, 0.05),
                               (np.nextafter(1e-3, 0), 1e-3), (np.nextafter(5000, 0), 5000)):
             with self.subTest(ratio=ratio):
                 np.testing.assert_allclose(round_factor(ratio), factor, rtol=1e-15)
 
     def test_together(self):
-        """Three states side by side are as wide as their shifts say."""
+        """Three states side by side have the width that their shifts tell."""
         self.start(self.runs / "beam", *SMALL, *BARE, "--times", 0, 0.03, 0.06, "--together", "--shift", 1.5, 0, 0, "--camera", "front", "--field", "region")
         picture = pixels(self.folder / "render.png")
         left, right, _, _ = extent(picture)
         gaps = np.flatnonzero(~is_body(picture[:, left:right]).any(axis=0))
-        # Beams of 1 m, of which the third has bent by less than 1 % of that, and two gaps of 0.5 m.
+        # The beams have 1 m, of which the third has lost less than 1 % by
+        # bending, and the two gaps 0.5 m each.
         self.assertAlmostEqual(len(gaps) / (right - left), 1 / 4, delta=0.01)
 
     def test_mistakes(self):
@@ -220,7 +235,7 @@ class Render(ScriptTest):
         self.assertEqual(pixels(self.folder / "foreign.png").shape, (300, 400, 3))
 
     def test_full_disk(self):
-        """Where ffmpeg says so, too."""
+        """A full disk is also reported if ffmpeg notices it."""
         (self.folder / "bin").mkdir()
         ffmpeg = self.folder / "bin" / "ffmpeg"
         ffmpeg.write_text("#!/bin/sh\ncat > /dev/null\necho 'Error writing trailer: No space left on device' >&2\nexit 228\n")
@@ -232,7 +247,7 @@ class Render(ScriptTest):
 
     @unittest.skipUnless(hasattr(vtkRenderingOpenGL2, "vtkXOpenGLRenderWindow"), "this VTK needs no display")
     def test_without_a_display(self):
-        """Where there is none, and no Xvfb, one line says so."""
+        """Without a display and without Xvfb one line tells so."""
         message = self.start(self.runs / "beam", status=1, env={"PATH": "/nonexistent", "HOME": str(self.folder)})
         self.assertIn("there is no display, and no Xvfb", message)
 

@@ -46,7 +46,7 @@ class Report(ProgramTest):
         self.browser.set_media(prefers_color_scheme="light", prefers_reduced_motion="reduce")
 
     def run_of(self, name):
-        """The folder of a run with its page, made once."""
+        """The folder of a run with its page, which is made once."""
         if (self.results / name).exists():
             return self.results / name
         if name == "study":
@@ -67,7 +67,7 @@ class Report(ProgramTest):
         self.assertRegex(run.stdout, f"^The page of the run is {folder}/report.html ")
 
     def open(self, name):
-        """Opens the page of a run, and looks for what no page may do: complain, or ask for anything."""
+        """Opens the page of a run, and checks that it reports no errors and loads nothing."""
         folder = self.run_of(name)
         self.browser.open(folder / "report.html")
         self.assertEqual(self.browser.messages(), [])
@@ -76,13 +76,13 @@ class Report(ProgramTest):
         return folder
 
     def check_number(self, key, expected):
-        """The page keeps all digits, and shows the first ones: five of them, so half a unit of the fifth is the error."""
+        """The page stores all digits of a number, and shows five, so the error is half a unit of the fifth."""
         value, text = self.data[key]
         self.assertEqual(float(value), expected, key)
         shown = text.replace("\u202f", "").replace("\u2212", "-")
         if match := re.fullmatch(r"(.*)×10(-?\d+)", shown):
             shown = f"{match.group(1)}e{match.group(2)}"
-        # A prefix of the unit is a power of 1000.
+        # The prefix of the unit is a power of 1000.
         power = round(math.log10(abs(expected / float(shown))) / 3) if expected and float(shown) else 0
         self.assertAlmostEqual(float(shown) * 1000.0**power, expected, delta=6e-5 * abs(expected), msg=f"{key}: {text}")
 
@@ -97,12 +97,12 @@ class Report(ProgramTest):
         for key, value in summary["wall_time"].items():
             self.check_number(f"wall_time.{key}", value)
         self.check_number("error_estimate.relative", summary["error_estimate"]["relative"])
-        # The quality of the mesh is what the program says of it, in its four digits.
+        # The quality of the mesh is that in the log, to four digits.
         log = (folder / "log.txt").read_text()
         angle, aspect = re.search(r"smallest dihedral angle ([\d.]+) degrees, worst aspect ratio ([\d.]+)", log).groups()
         self.assertAlmostEqual(float(self.data["quality.angle"][0]), float(angle), delta=0.006)
         self.assertAlmostEqual(float(self.data["quality.aspect"][0]), float(aspect), delta=0.006)
-        # What differs from the defaults is what was set, in the case or here; not what was set to the default.
+        # Settings on the page are those that differ from defaults, set in the case or here; not those set to their default.
         with open(folder / "parameters.prm", encoding="utf-8") as file:
             self.assertIn("set Spectral radius = 0.8", file.read())
         entries = set(self.browser.texts("#parameters th code"))
@@ -114,14 +114,14 @@ class Report(ProgramTest):
         rows = {float(row["time"]): row for row in read_history(folder)}
         states = self.browser.run("return report.description.view.states")
         self.assertEqual([state["time"] for state in states], list(rows))
-        # A beam is bent most at its surface; nodes are shown as they are.
+        # A beam is bent most at its surface; values at nodes are shown unchanged.
         for state in states:
             self.assertAlmostEqual(state["ranges"]["displacement"][1], float(rows[state["time"]]["max_displacement"]), delta=1e-14)
-        # What the page has decoded differs by the rounding of three components.
+        # Decoded values differ by the rounding of three components.
         largest = self.browser.run("return Math.max(...report.surface.valuesOf(report.options[0], report.states[arguments[0]]))", len(states) - 1)
         expected = float(rows[states[-1]["time"]]["max_displacement"])
         self.assertAlmostEqual(largest, expected, delta=math.sqrt(3) * HALF_A_UNIT * expected + 1e-6 * expected)
-        # At rest a box of 1 x 0.1 x 0.1 m, in single precision.
+        # The body at rest is a box of 1 x 0.1 x 0.1 m, in single precision.
         self.browser.set_value("warp", 0)
         self.assertAlmostEqual(self.browser.run("return report.surface.area()"), 0.42, delta=1e-6)
         places = np.array(self.browser.run("return [...report.surface.places]")).reshape(-1, 3)
@@ -138,7 +138,7 @@ class Report(ProgramTest):
         expected = [values[on_surface].min(), values[on_surface].max()]
         ranges = self.browser.run("return report.description.view.states.map((state) => state.ranges.von_mises)")
         np.testing.assert_allclose(ranges[-1], expected, rtol=1e-14)
-        # The legend says the range of all states.
+        # The legend has the range of all states.
         ticks = [float(tick) for tick in self.browser.run("return [...document.querySelectorAll('#legend .ticks span')].map((one) => one.dataset.value)")]
         np.testing.assert_allclose([ticks[0], ticks[-1]], [min(r[0] for r in ranges), max(r[1] for r in ranges)])
         self.browser.set_value("range", "state")
@@ -152,7 +152,7 @@ class Report(ProgramTest):
         body = (abs(before - background).max(axis=2) > 30).sum()
         self.assertGreater(body, 0.03 * before[:, :, 0].size, "the view is blank")
         self.assertGreater(len(np.unique(before.reshape(-1, 3), axis=0)), 200, "the body has no colours")
-        # Each is used and put back, which must give the same picture: what differs is no accident.
+        # Each control is used and reset, which must give the first picture again: so differences are no accident.
         for name, value, back, least in (("time", 12, 30, 2000), ("field", "displacement", "von_mises", 2000), ("warp", 0.5, 1, 2000),
                                          ("clip", "1", "", 2000)):
             with self.subTest(control=name):
@@ -169,7 +169,7 @@ class Report(ProgramTest):
                 self.assertGreater(n_different(before, picture), least)
                 self.assertLess(n_different(before, self.browser.picture("#canvas")), 20)
         self.check_clip(before)
-        # Early states have little stress: their own range shows more of it.
+        # Early states have low stress: their own range shows more of it.
         self.browser.set_value("time", 3)
         picture = self.browser.picture("#canvas")
         self.browser.set_value("range", "state")
@@ -209,9 +209,9 @@ class Report(ProgramTest):
         self.browser.driver.execute_async_script("setTimeout(arguments[0], 600)")
         self.browser.press(" ")
         self.assertEqual(self.browser.find("#play").get_attribute("aria-label"), "Play")
-        # 31 states in three seconds, or in more if the machine is busy.
+        # The page shows 31 states in three seconds, or in more if the machine is busy.
         self.assertGreater(place(), 1)
-        # By Tab from the top: what can be done by the mouse has its place.
+        # The Tab key reaches all controls from the top.
         self.browser.run("document.body.tabIndex = -1; document.body.focus()")
         met = []
         for _ in range(40):
@@ -219,7 +219,7 @@ class Report(ProgramTest):
             met.append(self.browser.run("return document.activeElement.id || document.activeElement.textContent"))
         wanted = ["canvas", "play", "time", "speed", "field", "range", "warp", "true-scale", "clip", "outline", "edges", "bands", "slanted"]
         self.assertEqual([name for name in met if name in wanted], wanted)
-        # In the view.
+        # These keys act in the view.
         self.browser.run("document.getElementById('canvas').focus()")
         picture = self.browser.picture("#canvas")
         for keys, shift in ((Keys.ARROW_LEFT, True), ("+", False), ("x", False), ("z", False)):
@@ -237,7 +237,7 @@ class Report(ProgramTest):
 
     def test_values_under_the_pointer(self):
         folder = self.open("motion")
-        # The end of the beam faces the camera when that looks along x; its middle is the probe.
+        # The end of the beam faces the camera that looks along x; its middle is the probe.
         self.browser.click("[data-look=x]")
         box = self.browser.run("const b = document.getElementById('canvas').getBoundingClientRect(); return [b.left, b.top, b.width, b.height]")
         final = read_summary(folder)["final"]
@@ -247,7 +247,8 @@ class Report(ProgramTest):
         row = next(row for row in self.browser.find("#readout").text.split("\n") if row.startswith("displacement ["))
         unit, *shown = re.fullmatch(r"displacement \[(\w+)\] (\S+) (\S+) (\S+)", row.replace("\u2212", "-")).groups()
         self.assertEqual(unit, "mm")
-        # A pixel is less than 1 mm of the end, which has turned by less than half a right angle: so much its displacement differs at most.
+        # A pixel is less than 1 mm of the end, which has rotated by less than a right angle's half: so displacements differ at most by
+        # that.
         for value, expected in zip(shown, (final["tip_x"], final["tip_y"], final["tip_z"])):
             self.assertAlmostEqual(float(value) * 1e-3, expected, delta=1e-3)
         self.browser.point_at(5, 5)
@@ -266,26 +267,27 @@ class Report(ProgramTest):
         row = min(rows, key=lambda row: abs(float(row["time"]) - at))
         for text, column in zip(texts, ("kinetic_energy", "elastic_energy", "external_work")):
             self.assertAlmostEqual(float(text.split()[-1]), float(row[column]), delta=6e-5 * float(row[column]), msg=text)
-        # A click takes the view there; a curve that is put away is gone.
+        # A click moves the view to that time; a curve that is switched off is gone.
         self.browser.press_mouse()
         self.assertEqual(self.browser.run("return report.description.view.states[report.state].time"), float(row["time"]))
         self.browser.click(f"{chart} .keyline button")
         self.assertEqual(self.browser.run(f"return document.querySelectorAll('{chart} path.curve').length"), 2)
-        # The time has as many digits as tell states apart.
+        # The time has enough digits to distinguish states.
         self.browser.run("report.description.view.states.forEach((one, k) => { one.time = 1 + 5e-5 * k; }); report.state = 1; report.showTime()")
         self.assertEqual(self.browser.texts("#clock"), ["t = 1.00005\u00a0s"])
 
     def test_curved_cells(self):
-        """An eighth of a thick sphere, radii 1 and 2: three flat quarters of a ring and two curved sides."""
+        """An eighth of a thick sphere, radii 1 and 2, has three flat quarters of a ring and two curved sides."""
         folder = self.open("sphere")
         self.browser.set_value("warp", 0)
         expected = 3 * math.pi / 4 * (4 - 1) + 4 * math.pi / 8 * (4 + 1)
-        # Cells of 0.5 rad, cut in six: polygons inside of a circle lack a share of (0.5 / 6)^2 / 6; uncut ones would lack 30 times as much.
+        # Cells have 0.5 rad and are divided by six: polygons inside of a circle lack (0.5 / 6)^2 / 6 of it; undivided ones would lack 30
+        # times as much.
         area = self.browser.run("return report.surface.area()")
         self.assertAlmostEqual(area, expected, delta=1.2e-3 * expected)
         places = np.array(self.browser.run("return [...report.surface.places]")).reshape(-1, 3)
         np.testing.assert_allclose([places.min(axis=0), places.max(axis=0)], [[0, 0, 0], [2, 2, 2]], atol=1e-6)
-        # The warning of the log is in the page, and in the words of the log.
+        # The page shows the warning of the log, in the same words.
         warning = next(line for line in (folder / "log.txt").read_text().splitlines() if line.startswith("warning: "))
         self.assertEqual(self.browser.texts(".warnings li"), [warning.removeprefix("warning: ")])
 
@@ -295,15 +297,15 @@ class Report(ProgramTest):
         for i, frequency in enumerate(frequencies):
             self.check_number(f"frequencies.{i}", frequency)
         self.assertEqual(len(read_modes(folder)), len(frequencies))
-        # The first one that is shown deforms the body.
+        # The first mode that is shown deforms the body.
         self.assertEqual(self.browser.run("return document.querySelector('[data-mode][aria-pressed=true]').dataset.mode"), "3")
         before = self.browser.picture("#canvas")
         self.browser.click("[data-mode='6']")
         self.assertGreater(n_different(before, self.browser.picture("#canvas")), 2000)
         self.assertIn("mode 7, 169.55\u00a0Hz", self.browser.texts("#clock")[0])
-        # Who wants no motion gets none without asking.
+        # A reader who prefers reduced motion gets none without asking.
         self.assertEqual(self.browser.find("#play").get_attribute("aria-label"), "Play")
-        # Half of a vibration later the shape is the opposite one, at its end the one that it was.
+        # Half a vibration later the shape is the opposite one, and after a whole vibration the first one.
         places = [np.array(self.browser.run("report.player.go(arguments[0]); return [...report.surface.places]", place)) for place in (18, 54, 0)]
         np.testing.assert_allclose((places[0] + places[1]) / 2, places[2], atol=1e-5)
         self.assertGreater(abs(places[0] - places[2]).max(), 0.1)
@@ -324,7 +326,7 @@ class Report(ProgramTest):
             shown = [row[head.index(column.replace("_", " "))] for row in cells]
             self.assertEqual([float(value) if value else None for value in shown],
                              [float(row[column]) if row[column] != "nan" else None for row in rows], column)
-        # Two curves each; the slope between their points is the order.
+        # There are two curves; the slope between their points is the order.
         self.assertEqual(self.browser.run("return document.querySelectorAll('[data-chart=\"L2-h\"] path.curve').length"), 2)
         slopes = [re.search(r"slope ([\d.]+)", text).group(1) for text in self.browser.texts('[data-chart="L2-h"] .keyline button')]
         self.assertEqual(slopes, [f"{float(row['L2_order']):.2f}" for row in rows if row["L2_order"] != "nan"])
@@ -346,7 +348,7 @@ class Report(ProgramTest):
                 self.assertLessEqual(self.browser.run("return document.documentElement.scrollWidth"), 340)
 
     def test_many_triangles(self):
-        """A plate of 54,280 triangles and states of noise, which nothing can pack: the page says what it leaves out."""
+        """A plate of 54,280 triangles and states of noise, which cannot be compressed: the page tells what it leaves out."""
         folder = self.results / "plate"
         n_triangles = write_plate(folder, (115, 115, 2), 30)
         self.make(folder)
@@ -363,7 +365,7 @@ class Report(ProgramTest):
         self.assertIn(f"{len(times)} states of 30 are in the page", note)
         self.assertEqual((times[0], times[-1]), (0, 1))
         self.assertGreater(len(times), 12)
-        # Flat sides stay flat and whole: 1 x 1 x 0.05 m, in single precision.
+        # Flat sides stay flat and complete: 1 x 1 x 0.05 m, in single precision.
         self.browser.set_value("warp", 0)
         self.assertAlmostEqual(self.browser.run("return report.surface.area()"), 2.2, delta=1e-5)
 

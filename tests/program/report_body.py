@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Results of a body with many triangles, made without the program: what scripts/report reads, and no more."""
+"""Results of a body with many triangles, made without the program: only what
+scripts/report reads."""
 
 import h5py
 import numpy as np
@@ -10,7 +11,8 @@ AROUND = (4, 6, 2, 3, 1, 5, 4)  # corners of a cuboid around its diagonal from 0
 
 
 def plate(n_cells):
-    """Points and linear tetrahedra: cuboids of six each."""
+    """The points and linear tetrahedra of a plate of cuboids with six cells
+    each."""
     n = np.array(n_cells) + 1
     points = np.stack(np.meshgrid(*[np.linspace(0, size, k) for size, k in zip(SIZE, n)], indexing="ij"), axis=-1).reshape(-1, 3)
     numbers = np.arange(n.prod()).reshape(n)
@@ -24,7 +26,8 @@ def plate(n_cells):
 
 
 def write_plate(folder, n_cells, n_states):
-    """A folder of results with random states; returns the number of triangles of the surface."""
+    """Writes a folder of results with random states; returns the number of
+    triangles of the surface."""
     folder.mkdir()
     points, cells = plate(n_cells)
     times, random = np.linspace(0, 1, n_states), np.random.default_rng(1)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""scripts/report with what is no run, or none that is whole: a message in one line and no file, or a page that says what is missing."""
+"""scripts/report for folders without a run, or with an incomplete one: a
+message in one line and no file, or a page that tells what is missing."""
 
 import fcntl
 import json
@@ -71,7 +72,8 @@ class ReportMistakes(ProgramTest):
         self.assertIn("nowhere/page.html cannot be written: the folder nowhere does not exist", self.report("run", "--out", "nowhere/page.html", status=1))
 
     def test_files_that_are_there(self):
-        """Pages of runs are replaced, files of others if that is wanted; what cannot be written whole leaves the old page as it was."""
+        """Pages of runs are replaced, other files only with --overwrite, and an
+        old page stays if the new one cannot be written completely."""
         file = self.folder / "run" / "history.csv"
         history = file.read_bytes()
         self.assertIn("run/history.csv exists and is no page of a run; --overwrite replaces it", self.report("run", "--out", "run/history.csv", status=1))
@@ -105,7 +107,8 @@ class ReportMistakes(ProgramTest):
                 self.assertIn(message, self.report(name, status=1))
 
     def test_missing_part_of_a_long_run(self):
-        """Its first states are in files to which another one refers, not solution.vtkhdf."""
+        """The first states of a long run are in files to which another file
+        than solution.vtkhdf refers."""
         self.run_case("cantilever", "long", *RUN, "Time integration/End time = 0.4")
         (self.folder / "long" / "solution" / "step_000005.h5").unlink()
         self.assertIn("step_000005.h5 is missing, to which block_000000.h5 refers", self.report("long", status=1))
@@ -119,7 +122,7 @@ class ReportMistakes(ProgramTest):
         self.assertIn("The computation failed: Newton &lt;did&gt; not converge. It reached t = 0.04 s, step 4.", text)
         (self.copy("stopped") / "summary.json").write_text(json.dumps(summary | {"status": "stopped", "message": "by a signal"}))
         self.assertEqual(self.page("stopped")[:2], ("notice open", "stopped"))
-        # A row that is being written is none yet.
+        # A row that is being written does not count yet.
         killed = self.copy("killed")
         (killed / "summary.json").unlink()
         with open(killed / "history.csv", "a", encoding="utf-8") as file:
@@ -127,7 +130,7 @@ class ReportMistakes(ProgramTest):
         kind, state, text = self.page("killed")
         self.assertEqual((kind, state), ("notice open", "killed"))
         self.assertIn("It reached t = 0.04 s, step 4.", text)
-        # Who writes there keeps the folder locked.
+        # A run that is still writing keeps the folder locked.
         with open(killed / ".corotet", "rb") as mark:
             fcntl.flock(mark, fcntl.LOCK_EX)
             kind, state, text = self.page("killed")
@@ -143,7 +146,8 @@ class ReportMistakes(ProgramTest):
         self.assertEqual(re.findall(r'<span class="(\w+)">', text), ["pass", "miss"])
 
     def test_texts_of_others(self):
-        """What a log or a name has is text, whatever it looks like."""
+        """Content of a log or a name is shown as text, whatever it looks
+        like."""
         self.copy("<b>&")
         with open(self.folder / "<b>&" / "log.txt", "a", encoding="utf-8") as file:
             file.write("warning: </script><script>alert(1)</script>\n")
@@ -154,7 +158,8 @@ class ReportMistakes(ProgramTest):
         self.assertIn("&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt;", text)
 
     def test_without_the_program(self):
-        """A copy of the scripts alone, with no program beside it or in the path, does not know the defaults, and says so."""
+        """A copy of the scripts alone, without a program beside it or in the
+        path, does not know the defaults, and tells so."""
         shutil.copytree(ROOT / "scripts", self.folder / "scripts", ignore=shutil.ignore_patterns("__pycache__"))
         run = subprocess.run([sys.executable, "-B", self.folder / "scripts" / "report", "run", "--out", "page.html"], cwd=self.folder,
                              env={"PATH": "/usr/bin:/bin"}, capture_output=True, text=True, check=False)

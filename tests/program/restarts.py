@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What a run may go on with: tables, times, and results wherever links lead. What is refused changes no file; what failed at its
-start, or is run once more from its own parameters, finds its results and its files again.
+"""Restarts with changed tables and times, and in folders that links lead to. A refused restart changes no file; a run that failed at its
+start, or that is repeated from its own parameters, finds its results and its files again.
 """
 
 import hashlib
@@ -20,7 +20,7 @@ SHORT = {**BEAM, "Discretization/Degree": "1", "Mesh/box/Cells": "4, 1, 1", "Tim
 
 
 def contents(directory):
-    """Fingerprints of all files below it, but for the lock, which says who was there last."""
+    """Fingerprints of all files below a directory, except the lock, which names the last process."""
     return {str(file.relative_to(directory)): hashlib.sha256(file.read_bytes()).hexdigest() for file in directory.rglob("*") if file.is_file() and file.name != ".corotet"}
 
 
@@ -35,7 +35,7 @@ class Restarts(ProgramTest):
         self.assertEqual(contents(self.folder / "run"), before)
 
     def test_tables(self):
-        """Rows of tables are loads: others are refused, more of them at the end are a longer run."""
+        """Rows of tables are loads: changed ones are refused, and rows added at the end make a longer run."""
         table = self.folder / "rise.csv"
         for kind, other in (("Linear", "Cubic"), ("Cubic", "Linear")):
             with self.subTest(kind=kind):
@@ -58,7 +58,7 @@ class Restarts(ProgramTest):
                 table.write_text(rows + "0.3, 3\n", encoding="utf-8")
                 longer = ("--restart", "--set", "Time integration/End time = 0.3")
                 if kind == "Cubic":
-                    # The last interval becomes another one.
+                    # New rows change the last interval, whose slope depends on them.
                     self.check_refused(before, self.run_entries(entries, *longer, status=1),
                                        r"Tables/Cubic: --restart: found new rows in the table 'rise': they change it from 0\.1 on, and the run has come to "
                                        r"t = 0\.2; allowed: the rows that it began with")
@@ -67,7 +67,7 @@ class Restarts(ProgramTest):
                 self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.3, delta=1e-12)
 
     def test_final_row_between_rows(self):
-        """A run that stops between two rows, as a run with a limit on its time does: what the summary calls final is the last row."""
+        """If a run stops between two rows, as with a limit on its time, the final entries of the summary are those of the last row."""
         entries = {**SHORT, "Output/Steps between rows": "4", "Output/Probes": "tip: 1 0.1 0.1", "Output/Stress probes": "middle: 0.5 0.05 0.05",
                    "Checkpoint/Wall time limit": "1e-9"}
         self.run_entries(entries, status=4)
@@ -81,11 +81,12 @@ class Restarts(ProgramTest):
             if run.returncode == 0:
                 break
         self.assertEqual(run.returncode, 0)
-        # Ten steps and three rows: some runs were between two.
+        # There are ten steps and three rows, so some runs stopped between two.
         self.assertGreater(n_runs, 4)
 
     def test_rows_behind_a_table(self):
-        """They may be added as long as what the run has had stays as it is: the run that goes on is the one that had them from its start."""
+        """Rows may be added to a table as long as the past of the run does not change: the restarted run equals one that had them from
+        its start."""
         table = self.folder / "rise.csv"
         few, more = "0, 0\n0.125, 1\n0.1875, 2\n0.25, 1\n", "0.375, 3\n0.5, 2\n"
         force, support = ("Loads/Gravity", "0; 0; -10 * rise({})"), ("Boundary conditions/Displacement", "x-max: 0; 0; 1e-2 * rise({})")
@@ -112,8 +113,8 @@ class Restarts(ProgramTest):
                 self.assertEqual(rows, rows_without_time(self.folder / "run"))
 
     def test_after_single_precision_has_failed(self):
-        """Factors of a slender beam are in single precision for short steps, whose mass makes matrices definite, and in double from the first
-        long one on: a run that goes on keeps that, and has the same history to the last digit."""
+        """Factors of a slender beam are in single precision for short steps, whose mass makes matrices definite, and in double precision
+        from the first long step on: a restarted run keeps that, and has the same history to the last digit."""
         entries = {**SHORT, "Discretization/Degree": "2", "Mesh/box/Size": "40, 0.1, 0.1", "Mesh/box/Cells": "60, 1, 1",
                    "Material/Young's modulus": "1e9", "Material/Density": "1000", "Boundary conditions/Fixed": "x-min",
                    "Boundary conditions/Traction": "x-max: 0; 0; 2*t + if(t < 200, 0, 10000*sin(20*(t - 200)))", "Loads/Gravity": "0; 0; 0",
@@ -133,7 +134,7 @@ class Restarts(ProgramTest):
         self.assertEqual(rows_without_time(run), whole)
 
     def test_other_limits_of_adaptive_steps(self):
-        """Steps have grown by far until the restart; then they are no longer than is now allowed."""
+        """Steps have grown a lot until the restart; then they are limited by the new largest step."""
         entries = {**SHORT, "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -0.01", "Damping/Mass coefficient": "40",
                    "Time integration/Type": "Newmark", "Time integration/End time": "20", "Time integration/Adaptive step/Enabled": "true"}
         self.run_entries(entries)
@@ -146,7 +147,7 @@ class Restarts(ProgramTest):
         self.assertLessEqual(max(later), limit * (1 + 1e-12))
 
     def test_explicit_run_of_a_deformed_body_with_another_step(self):
-        """A bar that has been crushed to less than half of its length: its stable step is far below that at rest, and counts."""
+        """A bar has been crushed to less than half of its length: its stable step, far below that at rest, limits the new step."""
         entries = {**SHORT, "Mesh/box/Size": "1, 0.4, 0.4", "Discretization/Mass": "row sum", "Material/Type": "neo-Hookean", "Material/Young's modulus": "1e6",
                    "Boundary conditions/Fixed": "x-min", "Boundary conditions/Displacement": "x-max: -0.6 * smooth_step(t, 0, 0.5); 0; 0",
                    "Damping/Mass coefficient": "5", "Time integration/Type": "central difference", "Time integration/End time": "0.55",
@@ -162,7 +163,7 @@ class Restarts(ProgramTest):
             self.assertGreaterEqual(float(row["kinetic_energy"]), 0)
 
     def test_finished_run_with_another_step(self):
-        """There is nothing left to do, whatever the step would be."""
+        """Nothing is left to do, so another step has no effect."""
         self.run_entries(SHORT)
         rows = rows_without_time(self.folder / "run")
         for step in ("0.03", "0.5", "1e-3"):
@@ -170,7 +171,7 @@ class Restarts(ProgramTest):
             self.assertEqual(rows_without_time(self.folder / "run"), rows)
 
     def test_other_spelling(self):
-        """Blanks around the items of lists and the spelling of numbers do not matter, with a checkpoint and without; formulas do."""
+        """Blanks around items of lists and the spelling of numbers may change, with a checkpoint and without; formulas may not."""
         entries = {**SHORT, "Mesh/box/Size": "1, 0.1, 0.1", "Material/Density": "body: 1000", "Boundary conditions/Fixed": "x-min & z-min, x-min",
                    "Boundary conditions/Displacement": "x-max & z-max: free; 0.1*t; 0"}
         others = {"Mesh/box/Cells": "4,1,1", "Mesh/box/Size": "1.0,1e-1 , 0.10", "Material/Density": "body:1e3", "Loads/Gravity": "0;0.0;-1e1",
@@ -192,7 +193,7 @@ class Restarts(ProgramTest):
         self.assertIn("the run begins anew", self.run_entries(entries, "--restart", *others).stdout)
 
     def test_states_that_are_gone(self):
-        """A time series whose earlier states are missing or cut off would show zeros there: it is not continued."""
+        """A time series whose earlier states are missing or cut off would show zeros there, so it is not continued."""
         entries = {**SHORT, "Output/Stress": "both"}
         self.run_entries(entries)
         run = self.folder / "run"
@@ -214,7 +215,7 @@ class Restarts(ProgramTest):
         self.run_entries(entries, "--restart", "--set", "Time integration/End time = 0.3")
 
     def test_results_of_later_steps_go(self):
-        """From an earlier checkpoint on: neither results of later steps stay nor blocks that refer to some."""
+        """A restart from an earlier checkpoint removes results of later steps, and blocks that refer to them."""
         entries = {**SHORT, "Time integration/Time step": "0.004", "Checkpoint/Steps between checkpoints": "10", "Checkpoint/Keep": "20"}
         self.run_entries(entries, "--set", "Time integration/End time = 0.28")
         run = self.folder / "run"
@@ -228,7 +229,7 @@ class Restarts(ProgramTest):
                          ["mesh.h5", *(f"step_{step:06}.h5" for step in range(21))])
 
     def test_refusals_change_no_file(self):
-        """Neither do those that are found when the checkpoint has been read."""
+        """Refusals that are found after the checkpoint has been read change no file either."""
         self.run_entries(SHORT)
         before = contents(self.folder / "run")
         for more in ((), ("--validate",)):
@@ -241,13 +242,13 @@ class Restarts(ProgramTest):
         self.assertEqual(contents(self.folder / "run"), before)
 
     def run_killed(self, entries, *arguments):
-        """Leaves what a run leaves that was killed before its first checkpoint. Returns the fingerprints."""
+        """Leaves the files of a run that was killed before its first checkpoint. Returns their fingerprints."""
         self.run_entries({**entries, "Checkpoint/Steps between checkpoints": "0"}, *arguments)
         (self.folder / "run" / "summary.json").unlink()
         return contents(self.folder / "run")
 
     def test_another_run_without_checkpoint(self):
-        """Results of another run are not replaced by one that begins anew, but those of the same run are."""
+        """Without a checkpoint, results of the same run are replaced by its restart, but those of another run are not."""
         before = self.run_killed(SHORT)
         for entry, old, new in (("Material/Density", "1000", "900"), ("Mesh/box/Cells", "4, 1, 1", "5, 1, 1"), ("Discretization/Degree", "1", "2"),
                                 ("Output/Probes", "tip: 1 0.05 0.05", "end: 1 0.05 0.05")):
@@ -260,7 +261,7 @@ class Restarts(ProgramTest):
         self.assertAlmostEqual(float(read_history(self.folder / "run")[-1]["time"]), 0.1, delta=1e-12)
         self.run_killed(SHORT, "--set", "Output/Overwrite = true")
         self.run_entries(SHORT, "--restart", "--set", "Material/Density = 900", "--set", "Output/Overwrite = true")
-        # What another program has written, and what a loss of power has left.
+        # parameters.prm may have been written by another program, or damaged by a loss of power.
         before = self.run_killed(SHORT, "--set", "Output/Overwrite = true")
         parameters = self.folder / "run" / "parameters.prm"
         text = parameters.read_text(encoding="utf-8")
@@ -272,7 +273,7 @@ class Restarts(ProgramTest):
         self.run_entries(SHORT, "--restart")
 
     def test_another_file_without_checkpoint(self):
-        """The name of a file counts, not the folder that it is in; blanks do not."""
+        """The name of a file counts, not its folder; blanks do not."""
         shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder)
         shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder / "other.msh")
         for name in ("rise.csv", "other.csv"):
@@ -290,7 +291,7 @@ class Restarts(ProgramTest):
         self.run_entries(entries, "--restart", "--set", "Mesh/file/File = moved/l_block.msh", "--set", "Tables/Linear = rise: moved/rise.csv")
 
     def test_output_behind_a_link(self):
-        """A step up from a link leads to where the link leads, and what is there is protected."""
+        """".." behind a link leads to the folder above the link's target, and the files there are protected."""
         (self.folder / "other" / "place").mkdir(parents=True)
         (self.folder / "link").symlink_to("other/place")
         for there in ("results", "letters"):
@@ -306,10 +307,10 @@ class Restarts(ProgramTest):
         self.assertEqual(sorted(file.name for file in self.folder.iterdir()), ["case.prm", "link", "other"])
 
     def test_full_disk_at_the_start(self):
-        """The folder is known as one of results all the same."""
+        """The folder is recognised as one of results, though its files could not be written."""
         self.run_entries(SHORT)
         rows = rows_without_time(self.folder / "run")
-        # What it says goes to pipes, which have no such limit.
+        # Messages go to pipes, which the limit of file sizes does not affect.
         run = subprocess.run([os.environ["COROTET_PROGRAM"], "case.prm", "--restart"], cwd=self.folder, capture_output=True, text=True, check=False,
                              preexec_fn=lambda: limit_files(0))
         self.assertEqual(run.returncode, 3, run.stderr)
@@ -317,7 +318,7 @@ class Restarts(ProgramTest):
         self.assertEqual(rows_without_time(self.folder / "run")[:len(rows)], rows)
 
     def test_parameters_repeat_the_run(self):
-        """Names of files in parameters.prm lead to them from there, also if the way there is a link."""
+        """Names of files in parameters.prm are relative to its folder, also if a link leads there."""
         (self.folder / "far" / "away" / "place").mkdir(parents=True)
         (self.folder / "link").symlink_to("far/away/place")
         shutil.copy(ROOT / "meshes" / "l_block.msh", self.folder)
@@ -333,7 +334,8 @@ class Restarts(ProgramTest):
             self.assertEqual(rows_without_time(self.folder / again), rows)
 
     def test_folders_that_parameters_cannot_say(self):
-        """They are refused before the run, unless the way from the results does not lead through them."""
+        """Folders whose names parameters.prm cannot contain are refused before the run, unless the path from the results does not lead
+        through them."""
         entries = {"Mesh/Type": "file", "Mesh/file/File": "l_block.msh", "Tables/Linear": "rise: rise.csv", "Loads/Gravity": "0; 0; -rise(t)",
                    "Discretization/Degree": "1", "Time integration/End time": "0.1", "Time integration/Time step": "0.05"}
         for folder, entry in (("m#1", "Mesh/file/File"), ("a, b", "Tables/Linear"), ("a: b", "Tables/Linear"), ("a\tb", "Mesh/file/File"), ("a; b", None)):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Large rotations in the ready cases come out as theory has them. doc/rotations.md has the figures in full.
+"""Large rotations in the ready cases agree with theory. doc/rotations.md has
+all figures.
 
 - elastica: deflection and shortening of Bernoulli's elastica (elliptic integrals) to 1 %. The body is 20 times as long as
   thick: shear and stretch, which the elastica has not, change its deflection by 0.1 to 0.4 %.
@@ -27,13 +28,14 @@ from vtkmodules.vtkIOHDF import vtkHDFReader
 
 from support import ProgramTest, read_history, read_summary
 
-# Load P L^2 / E I: deflection w / L, shortening u / L.
+# For each load P L^2 / E I: the deflection w / L and the shortening u / L.
 ELASTICA = {1: (0.30172, 0.05643), 2: (0.49346, 0.16064), 5: (0.71379, 0.38763), 10: (0.81061, 0.55500)}
 BEND = (-13.4, -23.5, 53.4)
 
 
 def distance_from_rest(directory):
-    """The largest distance of a node from its place at rest in the last state, after the best rigid motion (Kabsch)."""
+    """The largest distance of a node from its position at rest in the last
+    state, after the best rigid motion (Kabsch)."""
     reader = vtkHDFReader()
     reader.SetFileName(str(directory / "solution.vtkhdf"))
     reader.UpdateInformation()

@@ -21,13 +21,15 @@ SYSTEMS = {
     # Engineers' units: mm, tonnes, seconds and MPa.
     "mm, t, s": (1e3, 2.1e5, 7.85e-9),
 }
-# Powers of two, whose roots are powers of two: every sum has the same digits, so that all figures are the same to the last one.
-# Any length, time or stress that is compared with a constant shows here.
+# Factors that are powers of two, with roots that are powers of two, too: every
+# sum has the same digits, so all figures are the same to the last one. A
+# length, time or stress that the program compares with a constant shows here.
 EXACT = {"powers of two, small": (2. ** -20, 2. ** 30, 2. ** 10), "powers of two, large": (2. ** 20, 2. ** 40, 2. ** -4)}
 
 
 class Units:
-    """Factors of all quantities that follow from those of lengths, stiffnesses and densities."""
+    """The factors of all quantities that follow from those of lengths,
+    stiffnesses and densities."""
 
     def __init__(self, length, stiffness, density):
         self.length, self.stiffness, self.density = length, stiffness, density
@@ -39,7 +41,8 @@ class Units:
         self.momentum = density * length ** 3 * self.velocity
 
     def of_column(self, name):
-        """The factor of a column of history.csv or modes.csv; None if it has none that is worth a comparison."""
+        """The factor of a column of history.csv or modes.csv; None if the
+        column is not compared."""
         if name.endswith("energy") or name == "external_work" or name.startswith("internal_moment"):
             return self.energy
         if name.startswith("angular_momentum"):
@@ -55,7 +58,8 @@ class Units:
         return None
 
 
-# Tells columns of different units by their factors.
+# Different units have different factors here, which tells columns of different
+# units apart.
 PROBE = Units(3, 5, 7)
 
 
@@ -76,14 +80,17 @@ def steps(units, kind, step, end):
 
 
 def statics(units):
-    # Bent by half its length. The preconditioner's single precision rounds differently in other units, which decides what inexact linear
-    # solves leave and, squared by Newton's method, which error remains: with its default tolerances of 1e-8, up to 3e-12 of the energy.
+    # The beam is bent by half its length. Single precision of the
+    # preconditioner rounds differently in other units, which changes the errors
+    # of inexact linear solves and, squared by Newton's method, the final error:
+    # with its default tolerances of 1e-8, up to 3e-12 of the energy.
     return {**beam(units, "6, 1, 1", 2), "Newton/Residual tolerance": 1e-12, "Newton/Increment tolerance": 1e-12, "Time integration/Type": "static", "Time integration/static/Load steps": 6, "Time integration/End time": repr(units.time),
             "Boundary conditions/Traction": f"x-max: 0; 0; {2e-3 * units.stiffness!r}"}
 
 
 def dynamics(units):
-    # With everything that has a unit of its own: damping, springs, dashpots, a pressure, a point force, an initial velocity.
+    # The case has everything with its own unit: damping, springs, dashpots, a
+    # pressure, a point force, an initial velocity.
     spring, dashpot = 0.1 * units.stiffness / units.length, 0.01 * units.stiffness / units.velocity
     return {**beam(units, "4, 1, 1", 3), **gravity(units, 1e-3), **steps(units, "generalized-alpha", 2, 20),
             "Damping/Mass coefficient": repr(0.01 / units.time), "Damping/Stiffness coefficient": repr(0.01 * units.time),
@@ -94,7 +101,7 @@ def dynamics(units):
 
 
 def explicit(units):
-    # With the program's own step.
+    # The program chooses the step.
     return {**beam(units, "6, 1, 1", 1), **gravity(units, 1e-3), **steps(units, "central difference", 0, 10), "Discretization/Mass": "diagonal scaling",
             "Output/Steps between rows": 10}
 
@@ -115,7 +122,8 @@ def free_modes(units):
 class Scales(ProgramTest):
 
     def rows_of(self, problem, name, factors):
-        """The rows in units of the problem itself: text of each column to a number. And how often a preconditioner was built."""
+        """Rows with numbers in units of the problem itself, by columns, and how
+        often a preconditioner was built."""
         units = Units(*factors)
         entries = problem(units)
         (self.folder / "scaled.prm").write_text(parameter_text(entries), encoding="utf-8")
@@ -126,8 +134,9 @@ class Scales(ProgramTest):
         return numbers, read_summary(output).get("preconditioner_builds")
 
     def compare(self, problem, tolerance, rigid=0):
-        """@p tolerance: of systems whose round-off differs, relative to the largest figure of that unit. @p rigid: so many first rows are
-        rigid modes, whose frequencies are round-off."""
+        """@p tolerance holds for systems whose round-off differs, relative to
+        the largest figure of the unit. @p rigid is the number of first rows
+        that are rigid modes, whose frequencies are round-off."""
         expected, builds = self.rows_of(problem, "unit", (1, 1, 1))
         expected = expected[rigid:]
         self.assertGreater(len(expected), 2)
@@ -136,14 +145,17 @@ class Scales(ProgramTest):
             found = found[rigid:]
             self.assertEqual(len(found), len(expected), name)
             for column in expected[0]:
-                # Of all columns of this unit: some are sums that vanish.
+                # The largest figure of all columns with this unit, as some
+                # columns are sums that vanish.
                 unit = PROBE.of_column(column)
                 largest = max(abs(row[other]) for row in expected for other in row if PROBE.of_column(other) == unit)
-                # The factors of time are roots, and files have decimal digits.
+                # Factors of time are roots, and files have decimal digits.
                 allowed = largest * (1e-15 if name in EXACT else tolerance)
                 if column == "linear_iterations" and name not in EXACT:
-                    # Where a residual is next to its bound, round-off decides whether there is one more; and where one more is one too many,
-                    # a preconditioner is built anew, which saves some of the next.
+                    # Where a residual is close to its bound, round-off decides
+                    # on one more iteration; and if that is one too many, a new
+                    # preconditioner is built, which saves some of the following
+                    # iterations.
                     allowed = max(1, 0.01 * largest) if others == builds else 0.2 * largest
                 elif column.endswith("iterations"):
                     allowed = 0
@@ -151,7 +163,8 @@ class Scales(ProgramTest):
                     self.assertLessEqual(abs(one[column] - other[column]), allowed,
                                          f"{column} of {problem.__name__} in {name}: {other[column]!r} instead of {one[column]!r}, of at most {largest!r}")
 
-    # Round-off, 1e-16, grows by the condition of the matrices, about 1e3 to 1e4 here, and with the number of steps.
+    # Round-off, 1e-16, is multiplied by the condition of the matrices, about
+    # 1e3 to 1e4 here, and grows with the number of steps.
 
     def test_statics(self):
         self.compare(statics, 1e-12)
@@ -163,7 +176,8 @@ class Scales(ProgramTest):
         self.compare(explicit, 1e-11)
 
     def test_adaptive(self):
-        # The length of each step follows from an error that is a small difference, 1e-3 of the displacement, and shifts all later ones.
+        # The length of each step follows from an error that is a small
+        # difference, 1e-3 of the displacement, and shifts all later steps.
         self.compare(adaptive, 1e-9)
 
     def test_modes(self):

@@ -55,7 +55,7 @@ class Schema(ProgramTest):
                     self.assertEqual(self.is_valid(as_json(text)), [])
 
     def test_same_as_the_program(self):
-        # What one accepts, the other does; and so what it refuses.
+        # The schema and the program accept and refuse the same files.
         for parameters, accepted in (
                 ({"Discretization": {"Degree": 2}}, True), ({"Discretization": {"Degree": "2"}}, True),
                 ({"Discretization": {"Degree": {"value": "2", "default_value": "3"}}}, True),

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the tests of scripts that show results share: small runs, made once, and the scripts as users start them."""
+"""Tools of the tests of scripts that show results: small runs, made once, and
+the scripts as users start them."""
 
 import os
 import pathlib
@@ -18,7 +19,8 @@ from support import ROOT, ProgramTest
 
 sys.path.insert(0, str(ROOT / "scripts"))
 
-# A quadratic beam that swings, with recovered stress; a cubic octant of a sphere on curved cells, in statics; modes of a plate, three of them rigid.
+# A quadratic beam that swings, with recovered stress; a cubic octant of a
+# sphere with curved cells, in statics; modes of a plate, three of them rigid.
 RUNS = {"beam": ("cantilever", "Discretization/Degree = 2", "Output/Stress = nodes", "Time integration/End time = 0.3", "Time integration/Time step = 0.03",
                  "Mesh/box/Cells = 6, 1, 1", "Checkpoint/Minutes between checkpoints = 0"),
         "sphere": ("lame_sphere",),
@@ -31,7 +33,8 @@ LONG = ("Discretization/Degree = 1", "Mesh/box/Cells = 6, 1, 1", "Time integrati
 
 
 class ScriptTest(ProgramTest):
-    """Tests of one script, with a folder `runs` of results that nobody changes."""
+    """Tests of one script, with a folder `runs` of results that no test
+    changes."""
 
     script = ""
 
@@ -45,7 +48,8 @@ class ScriptTest(ProgramTest):
             subprocess.run([os.environ["COROTET_PROGRAM"], ROOT / "parameters" / f"{case}.prm", "--quiet", *overrides, "--output", cls.runs / name], check=True)
 
     def start(self, *words, status=0, **others):
-        """Runs the script in the test's folder; on a mistake there must be one line. Returns what it says."""
+        """Runs the script in the test's folder; a mistake must give one line.
+        Returns its output."""
         command = [sys.executable, "-B", ROOT / "scripts" / self.script, *map(str, words)]
         run = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False, timeout=300, **others)
         self.assertEqual(run.returncode, status, f"{shlex.join(map(str, words))}\n{run.stdout}{run.stderr}")
@@ -58,7 +62,8 @@ class ScriptTest(ProgramTest):
         return run.stderr
 
     def check_mistakes(self, mistakes):
-        """Words of a command and what is said about them; nothing may be written."""
+        """Checks pairs of a command's words and the message about them; nothing
+        may be written."""
         before = sorted(self.folder.rglob("*"))
         for words, message in mistakes:
             with self.subTest(words=words):
@@ -67,7 +72,7 @@ class ScriptTest(ProgramTest):
 
 
 class State:
-    """A state as VTK's own reader has it."""
+    """A state as VTK's own reader reads it."""
 
     def __init__(self, grid):
         self.grid = grid
@@ -88,7 +93,7 @@ def times_of(run):
 
 
 def state_of(run, index):
-    """A state by its place in the series; -1 is the last."""
+    """A state by its position in the series; -1 is the last one."""
     reader = vtkHDFReader()
     reader.SetFileName(str(run / "solution.vtkhdf"))
     reader.UpdateInformation()

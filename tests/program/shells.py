@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What shells and man know of the command line: exactly the options that --help lists; bash completes options, styles, entries and
-files. (The files for zsh and fish are compared with --help only.)"""
+"""Completions of shells and the manual page have exactly the options that
+--help lists; bash completes options, styles, entries and files. (The files for
+zsh and fish are compared with --help only.)"""
 
 import os
 import pathlib
@@ -31,7 +32,8 @@ class Shells(ProgramTest):
                 self.assertEqual({prefix + name.replace("\\", "") for name in found}, options)
 
     def complete(self, *words):
-        """What bash offers for the last word, "corotet" before it."""
+        """The completions that bash offers for the last of these words after
+        "corotet"."""
         words = ("corotet", *words)
         script = ('source "$1"; shift; COMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); '
                   '_corotet corotet "${@: -1}" "${@: -2:1}"; printf "%s\\n" "${COMPREPLY[@]}"')

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Signals and limits of time: what ends a run leaves it saved, and what asks for a checkpoint ends nothing."""
+"""Signals and limits of time: one that ends a run leaves it saved, and one that
+requests a checkpoint does not end it."""
 
 import os
 import re
@@ -15,16 +16,17 @@ import unittest
 from support import ProgramTest, parameter_text, read_history, read_summary
 from checkpoints import BEAM, Run, rows_without_time
 
-# Its set-up takes some time, so that signals come within it.
+# The set-up of this case takes some time, so that signals come during it.
 LARGE = {**BEAM, "Mesh/box/Cells": "40, 8, 8", "Time integration/Time step": "0.02"}
-# Its steps take half a second and more.
+# The steps of this case take half a second and more.
 SLOW = {**BEAM, "Mesh/box/Cells": "20, 4, 4", "Time integration/End time": "10", "Time integration/Time step": "0.01", "Linear solver/Type": "jacobi"}
 
 
 class Signals(ProgramTest):
 
     def test_signals(self):
-        """A run that is stopped says so once on the terminal and once in its log, and goes on as if nothing had been."""
+        """A stopped run tells so once on the terminal and once in its log, and
+        its restart gives the results of an undisturbed run."""
         reference = Run(self.folder / "reference", "generalized-alpha", 1)
         self.assertEqual(reference.finish()[0], 0)
         for number, ranks in ((signal.SIGTERM, 1), (signal.SIGINT, 1), (signal.SIGHUP, 1), (signal.SIGXCPU, 1), (signal.SIGTERM, 2)):
@@ -61,7 +63,7 @@ class Signals(ProgramTest):
         process.communicate()
         self.assertEqual(len(list((run.output / "checkpoint").glob("*.json"))), 1)
 
-        # A limit that is over when steps begin: each run makes one.
+        # The limit is over when steps begin, so each run makes one step.
         limited = Run(self.folder / "limited", "generalized-alpha", 1, {"Checkpoint/Wall time limit": "0.05"})
         for _ in range(200):
             status, _, errors = limited.finish("--restart")
@@ -73,13 +75,14 @@ class Signals(ProgramTest):
         self.assertEqual(rows_without_time(limited.output), rows_without_time(run.output))
 
     def start(self, entries, *arguments, **others):
-        """Starts the program itself, with pipes for what it says."""
+        """Starts the program itself, with pipes for its output."""
         (self.folder / "case.prm").write_text(parameter_text(entries), encoding="utf-8")
         return subprocess.Popen([os.environ["COROTET_PROGRAM"], "case.prm", *arguments], cwd=self.folder, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True, **others)
 
     def signal_within_step(self, *numbers):
-        """Sends these, each when the one before has arrived, within the first step. Status and errors."""
+        """Sends signals within the first step, each when the one before has
+        arrived. Returns status and errors."""
         process = self.start(SLOW, "--set", "Output/Overwrite = true")
         while not (self.folder / "run" / "history.csv").exists() or len(read_history(self.folder / "run")) < 1:
             time.sleep(0.002)
@@ -90,7 +93,8 @@ class Signals(ProgramTest):
         return process.returncode, errors
 
     def test_second_signal(self):
-        """Launchers may hand SIGTERM on more than once, which must not lose the step; a second Ctrl-C ends the program at once."""
+        """Launchers may send SIGTERM more than once, which must not lose the
+        step; a second Ctrl-C ends the program at once."""
         status, errors = self.signal_within_step(signal.SIGTERM, signal.SIGTERM)
         self.assertEqual(status, 4, errors)
         self.assertIn("SIGTERM; the run is saved", errors)
@@ -98,7 +102,8 @@ class Signals(ProgramTest):
         self.assertEqual(self.signal_within_step(signal.SIGINT, signal.SIGINT)[0], -signal.SIGINT)
 
     def test_long_step(self):
-        """A step that would take minutes is given up, and made by the run that goes on."""
+        """A step that would take minutes is given up; the restarted run makes
+        it."""
         entries = {**BEAM, "Time integration/Type": "static", "Discretization/Degree": "3", "Mesh/box/Size": "10, 0.1, 0.1",
                    "Mesh/box/Cells": "200, 2, 2", "Material/Young's modulus": "1e9", "Linear solver/Type": "jacobi", "Linear solver/Maximum iterations": "1000000"}
         process = self.start(entries)
@@ -117,12 +122,14 @@ class Signals(ProgramTest):
         self.assertEqual([row["step"] for row in read_history(self.folder / "run")], ["0", "1"])
 
     def test_hangup_that_is_ignored(self):
-        """As by nohup: MPI's libraries have a use of their own for the signal, which changes nothing of that."""
+        """A run that ignores SIGHUP, as with nohup, goes on: MPI's libraries
+        handle that signal themselves, which must not change this."""
         for ignored in (True, False):
             with self.subTest(ignored=ignored):
                 process = self.start({**BEAM, "Time integration/End time": "0.4"}, "--set", "Output/Overwrite = true",
                                      preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN if ignored else signal.SIG_DFL))
-                # From its first words on, while the body is made, and then during the steps.
+                # Signals are sent from the first line of output on, while the
+                # body is made, and then during the steps.
                 process.stdout.readline()
                 process.send_signal(signal.SIGHUP)
                 while process.poll() is None and ignored:
@@ -135,7 +142,8 @@ class Signals(ProgramTest):
                     self.assertIn(process.returncode, (4, -signal.SIGHUP))
 
     def test_closed_pipe(self):
-        """Who reads the log may stop: the run goes on to its end, and a signal for both ends it with all that was there."""
+        """If the reader of the log ends, the run goes on to its end; a signal
+        still ends it with all results saved."""
         for number, status in ((None, 0), (signal.SIGINT, 4)):
             with self.subTest(number=number):
                 entries = {**BEAM, "Newton/Log every solve": "true", **({"Time integration/End time": "1e4"} if number else {})}
@@ -153,7 +161,8 @@ class Signals(ProgramTest):
                 self.assertEqual(read_summary(self.folder / "run")["status"], "stopped" if number else "done")
 
     def test_limit_of_cpu_time(self):
-        """At the soft limit, as of "ulimit -S -t", a run is saved."""
+        """At the soft limit of CPU time, as set by "ulimit -S -t", a run is
+        saved."""
         process = self.start({**BEAM, "Time integration/End time": "1e4"},
                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (1, resource.getrlimit(resource.RLIMIT_CPU)[1])))
         _, errors = process.communicate(timeout=60)
@@ -161,11 +170,12 @@ class Signals(ProgramTest):
         self.assertIn("the limit of CPU time (SIGXCPU); the run is saved", errors)
 
     def test_save_request_without_steps(self):
-        """While a run is set up, and while modes are computed, there is nothing to save: the request is no reason to end."""
+        """During the set-up, and while modes are computed, there is nothing to
+        save: a request to save does not end the program."""
         for kind, entries in (("simulation", {"Time integration/End time": "0.02"}), ("modes", {"Modes/Number": "1", "Loads/Gravity": "0; 0; 0"})):
             with self.subTest(kind=kind):
                 process = self.start({**LARGE, "Type": kind, **entries}, "--set", "Output/Overwrite = true")
-                # From its first words on.
+                # Requests are sent from the first line of output on.
                 process.stdout.readline()
                 while process.poll() is None:
                     process.send_signal(signal.SIGUSR1)

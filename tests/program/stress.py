@@ -3,8 +3,10 @@
 # Copyright (C) 2026 by the corotet authors
 """Stress in the results: at nodes, at quadrature points, at probes, and the estimate of its error.
 
-A block of linear elasticity, sheared in two load steps; what its files hold is checked by tests/output/check_stress.py. A bar
-under tension has the same stress everywhere, which all of them must show. Two ranks differ by the linear solver's error, 1e-12.
+A block of linear elasticity is sheared in two load steps;
+tests/output/check_stress.py checks its files. A bar under tension has the same
+stress everywhere, which all results must show. Two ranks differ by the linear
+solver's error, 1e-12.
 """
 
 import subprocess
@@ -79,7 +81,8 @@ class Stress(ProgramTest):
             self.assertAlmostEqual(errors[1][key], value, delta=1e-9 * value)
 
     def test_tension(self):
-        # Sides are free to contract: sigma_xx = 3 and nothing else, of degree 0: exact everywhere.
+        # The sides are free to contract: sigma_xx = 3 and nothing else, of
+        # degree 0, so exact everywhere.
         bar = self.run_block("bar", "Boundary conditions/Fixed =", "Boundary conditions/Traction = x-max: 3; 0; 0",
                              "Boundary conditions/Displacement = x-min: 0; free; free, y-min: free; 0; free, z-min: free; free; 0")
         self.check_stress(bar)
@@ -97,13 +100,14 @@ class Stress(ProgramTest):
         points = self.run_block("points", "Output/Stress = quadrature points", "Output/Stress probes =")
         self.assertTrue((points / "stress_points.vtkhdf").exists())
         self.assertNotIn("error_estimate", read_summary(points))
-        # Old results of all kinds are known, and replaced.
+        # Old results of all kinds are recognised, and replaced.
         again = self.run_block("points", "Output/Stress = nodes", "Output/Overwrite = true")
         self.assertFalse((again / "stress_points").exists())
         self.assertIn("error_estimate", read_summary(again))
 
     def test_corotational_steps(self):
-        # Every state of a motion with large rotations has its stress, also with results rarer than steps.
+        # Every state of a motion with large rotations has stress, also if
+        # results are rarer than steps.
         case = self.run_case("cantilever", "case", "Time integration/End time = 0.04", "Discretization/Degree = 1", "Output/Stress = both",
                              "Output/Time between results = 0.02")
         self.check_vtkhdf(case)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Convergence studies from the command line: what they write, how they go on, what they compare with."""
+"""Convergence studies from the command line: their files, restarts and references."""
 
 import csv
 import json
@@ -43,7 +43,7 @@ subsection Convergence study
 end
 """
 
-# One run of one step.
+# A study of one run with one step.
 SMALL = {"Type": "convergence study", "Mesh/Type": "box", "Mesh/box/Size": "2, 1, 1", "Mesh/box/Cells": "2, 1, 1", "Material/Type": "linear",
          "Material/Young's modulus": "1e6", "Boundary conditions/Fixed": "x-min", "Loads/Gravity": "0; 0; -10", "Time integration/Type": "static",
          "Convergence study/Reference": "none", "Convergence study/Quantities": "elastic_energy", "Convergence study/Degrees": "1",
@@ -64,7 +64,7 @@ class Studies(ProgramTest):
             return list(csv.DictReader(file))
 
     def test_files(self):
-        """A row and a file for each run, the table in three forms, pictures; results that can be overwritten."""
+        """A study writes a row and a file for each run, the table in three formats, and pictures; results can be overwritten."""
         self.study(EXACT, "--set", "Convergence study/Pictures = true")
         out = self.folder / "out"
         rows = self.rows()
@@ -79,19 +79,19 @@ class Studies(ProgramTest):
         summary = read_summary(out)
         self.assertEqual((summary["status"], summary["runs"], summary["failed_runs"]), ("done", 4, 0))
         for row in rows:
-            # A run alone, with the same parameters, has the same error.
+            # A single run with the same parameters has the same error.
             self.run_program(self.folder / "study.prm", "--output", self.folder / "single", "--set", "Output/Overwrite = true",
                              "--set", "Type = simulation", "--set", f"Discretization/Degree = {row['degree']}",
                              "--set", f"Mesh/Refinements = {row['refinements']}")
             errors = read_summary(self.folder / "single")["errors"]
-            # To round-off: memory may be aligned otherwise.
+            # Errors agree to round-off only, as memory may be aligned differently.
             for norm in ("L2", "H1", "energy"):
                 self.assertAlmostEqual(float(row[f"{norm}_error"]) / errors[norm], 1, delta=1e-12)
         self.study(EXACT, "--set", "Output/Overwrite = true", "--set", "Convergence study/Degrees = 1")
         self.assertEqual(len(self.rows()), 2)
 
     def test_restart(self):
-        """Runs that are done are not run again, others are; another problem is another study, whose results are kept."""
+        """Finished runs are not repeated, others are made; a changed problem is another study, which does not replace the results."""
         self.study(EXACT, "--set", "Convergence study/Refinements = 0")
         rows = self.folder / "out" / "rows"
         (rows / "degree_2_refinements_0.json").unlink()
@@ -114,8 +114,8 @@ class Studies(ProgramTest):
         self.assertNotEqual(float(self.rows()[0]["L2_error"]), 0.125)
 
     def test_bodies_that_change(self):
-        """What is selected by place may be another part of the body on finer meshes: said once, for the first such run. Cuboids of 1/2 have a side at
-        x = 0.5, and none at 0.4."""
+        """A selection by place may be another part of the body on finer meshes: there is one warning, for the first such run. Cuboids of
+        1/2 have a side at x = 0.5, and none at 0.4."""
         for limit, expected in ((0.5, None), (0.4, ("the boundary 'patch' has 0.035 m^2 and had 0.01", "the region 'core' has"))):
             with self.subTest(limit=limit):
                 run = self.study(EXACT, "--set", "Output/Overwrite = true", "--set", f"Selections/Regions = core: box -1 -1 -1 {limit} 2 2",
@@ -129,7 +129,7 @@ class Studies(ProgramTest):
                 self.assertEqual((run.stdout + run.stderr).count("not of the same body"), len(warnings))
 
     def test_restart_of_another_study(self):
-        """What is run again and again belongs to the study; its lists, and entries that they replace, do not."""
+        """Entries of the runs belong to the study; its lists, and entries that they replace, do not."""
         self.run_small("Loads/Gravity = 0; 0; 0")
         before = contents(self.folder / "out")
         modes = ("Loads/Gravity = 0; 0; 0", "Convergence study/Run = modes", "Convergence study/Quantities = frequency_1", "Modes/Number = 1")
@@ -154,7 +154,7 @@ class Studies(ProgramTest):
         self.assertTrue(all(int(row["newton_iterations"]) >= 3 for row in rows))
 
     def test_damaged_result(self):
-        """A kept result that is none is named, and the run is made again."""
+        """A damaged result is reported, and its run is repeated."""
         self.study(EXACT, "--set", "Convergence study/Refinements = 0")
         undisturbed = [float(row["L2_error"]) for row in self.rows()]
         kept = self.folder / "out" / "rows" / "degree_1_refinements_0.json"
@@ -166,12 +166,12 @@ class Studies(ProgramTest):
             run = self.study(EXACT, "--restart", "--set", "Convergence study/Refinements = 0")
             self.assertIn("rows/degree_1_refinements_0.json: the result is damaged; the run is made again", run.stdout, key)
             for row, error in zip(self.rows(), undisturbed, strict=True):
-                # To round-off: memory may be aligned otherwise.
+                # Errors agree to round-off only, as memory may be aligned differently.
                 self.assertAlmostEqual(float(row["L2_error"]) / error, 1, delta=1e-12)
             self.assertEqual(json.loads(kept.read_text(encoding="utf-8"))["result"].keys(), result["result"].keys())
 
     def test_restart_within_a_run(self):
-        """The run that is under way goes on from its checkpoint; results are those of a study that nobody has disturbed."""
+        """The unfinished run continues from its checkpoint; results are those of an undisturbed study."""
         moving = {"Time integration/Type": "backward Euler", "Time integration/Time step": "0.25", "Exact solution/Displacement": "",
                   "Convergence study/Reference": "finer run", "Convergence study/Quantities": "elastic_energy", "Loads/Gravity": "0; 0; -10",
                   "Boundary conditions/Fixed": "x-min", "Convergence study/Pictures": "false"}
@@ -180,7 +180,7 @@ class Studies(ProgramTest):
         undisturbed = self.rows()
         files = {path.name for path in (self.folder / "out" / "rows").iterdir()}
         stopped = 0
-        # Stopped after each step.
+        # The study is stopped after each step.
         status = 4
         arguments = ["--set", "Output/Overwrite = true"]
         while status == 4:
@@ -209,7 +209,8 @@ class Studies(ProgramTest):
                 self.assertAlmostEqual(float(two[f"{norm}_error"]) / float(one[f"{norm}_error"]), 1, delta=1e-6)
 
     def test_finer_run(self):
-        """Against a finer run errors are those against the exact solution, as far as its own are small; on two ranks, too."""
+        """Errors relative to a finer run are those relative to the exact solution, if the finer run's own errors are small; on two ranks,
+        too."""
         text = EXACT.replace("set Degrees     = 1, 2", "set Degrees     = 1, 2\n  set Quantities = elastic_energy")
         self.study(text)
         exact = self.rows()
@@ -218,15 +219,16 @@ class Studies(ProgramTest):
             self.study(text, "--set", "Convergence study/Reference = finer run", "--set", "Output/Overwrite = true", ranks=ranks)
             finer = self.rows()
             for row, other in zip(exact, finer):
-                # The finer run, degree 2 with two refinements, is 0.03 times as wrong as the best of these and 0.004 times the next.
+                # The error of the finer run, degree 2 with two refinements, is 0.03 of the smallest one here and 0.004 of the next.
                 delta = 0.05 if row["degree"] == "2" and row["refinements"] == "1" else 0.01
                 self.assertAlmostEqual(float(other["L2_error"]) / float(row["L2_error"]), 1, delta=4 * delta)
                 self.assertAlmostEqual(float(other["elastic_energy"]) / float(row["elastic_energy"]), 1, delta=1e-9)
                 self.assertGreater(float(other["elastic_energy_error"]), 0)
 
     def test_finer_run_in_time(self):
-        """Errors in time are those against a step that is a fourth of the shortest. Where BDF2's are c dt^2, those that are seen are c (dt^2 - dt_0^2), so
-        orders are log2(255 / 63) and log2(63 / 15); with the shortest step itself as dt_0 the last error would be round-off."""
+        """Errors in time are relative to a run with a fourth of the shortest step. BDF2's error is c dt^2, so the differences are c (dt^2
+        - dt_0^2), and orders are log2(255 / 63) and log2(63 / 15); with the shortest step itself as dt_0 the last error would be
+        round-off."""
         moving = {"Time integration/Type": "BDF2", "Exact solution/Displacement": "", "Convergence study/Reference": "finer run",
                   "Convergence study/Quantities": "elastic_energy", "Loads/Gravity": "0; 0; -10 * smooth_step(t, 0, 1)", "Boundary conditions/Fixed": "x-min",
                   "Time integration/End time": "1", "Convergence study/Time steps": "0.04, 0.02, 0.01", "Convergence study/Degrees": "1",
@@ -239,7 +241,8 @@ class Studies(ProgramTest):
             self.assertAlmostEqual(float(order), expected, delta=0.1)
 
     def test_steps_that_end_at_results(self):
-        """Adaptive steps end at multiples of Time between results, as those of a single run: this load lasts a hundredth of the time."""
+        """Adaptive steps end at multiples of Time between results, like those of a single run: this load acts for a hundredth of the
+        time."""
         entries = {**SMALL, "Discretization/Degree": "1", "Time integration/Type": "Newmark", "Time integration/Time step": "0.01",
                    "Time integration/Adaptive step/Enabled": "true",
                    "Loads/Gravity": "0; 0; -10 * half_sine(t, 0.7, 0.71)", "Output/Time between results": "0.005",
@@ -259,20 +262,20 @@ class Studies(ProgramTest):
             self.assertRegex(run.stdout, f"warning: [^\n]*no effect, as {choice}: Convergence study/{entry}\n")
 
     def test_restart_with_a_value_less(self):
-        """What quantities are compared with comes from the finer run again."""
+        """Without a given value, a quantity is compared with that of the finer run again."""
         finer = ("Convergence study/Reference = finer run", "Convergence study/Refinements = 0, 1")
         self.run_small(*finer, "Convergence study/Quantities = elastic_energy: -123")
         self.check_restart(*finer, "Convergence study/Quantities = elastic_energy")
 
     def test_finer_run_of_another_body(self):
-        """New vertices lie on the sphere, so that runs are of other volumes."""
+        """New vertices lie on the sphere, so runs have different volumes."""
         (self.folder / "ball.geo").write_text('SetFactory("OpenCASCADE");\nSphere(1) = {0, 0, 0, 1};\nPhysical Volume("ball") = {1};\n'
                                               'Physical Surface("skin") = {1};\nMeshSize{:} = 1;\n', encoding="utf-8")
         ball = ("Mesh/Type = gmsh", "Mesh/gmsh/File = ball.geo", "Boundary conditions/Fixed = skin", "Convergence study/Reference = finer run")
         self.assertRegex(self.run_small(*ball).stdout, r"warning: degree_1_refinements_0: the body has [\d.]+ m\^3, in the finer run [\d.]+ m\^3")
 
     def test_modes(self):
-        """Frequencies against a given one: of a clamped bar that cannot strain laterally, c / (4 L), orders 2 p."""
+        """Frequencies are compared with c / (4 L), that of a clamped bar that cannot strain laterally: the orders are 2 p."""
         frequency = math.sqrt(1e6 * (1 - 0.3) / (1.3 * 0.4) / 1e3) / 4
         self.study("set Type = convergence study\n" + BOX.replace("set Cells = 2, 2, 2", "set Size = 1, 0.1, 0.1\n    set Cells = 4, 1, 1") + """
 subsection Boundary conditions
@@ -299,27 +302,27 @@ end
         self.assertAlmostEqual(float(rows[3]["frequency_1_order"]), 4, delta=0.1)
 
     def run_small(self, *settings, more=(), **others):
-        """The study of one small run, but for these settings."""
+        """Runs a study of one small run with these settings."""
         (self.folder / "small.prm").write_text(parameter_text(SMALL), encoding="utf-8")
         return self.run_program("small.prm", "--output", "out", *more, *[word for setting in settings for word in ("--set", setting)], **others)
 
     def check_restart(self, *settings):
-        """On going on with these settings the study has the rows of one that begins with them; they are returned."""
+        """The rows after a restart with these settings, which are those of a study that begins with them."""
         self.run_small(*settings, more=("--restart",))
         rows = self.numbers()
         self.run_small("Output/Overwrite = true", *settings)
         for row, other in zip(rows, self.numbers(), strict=True):
-            # To round-off: memory may be aligned otherwise.
+            # Energies agree to round-off only, as memory may be aligned differently.
             self.assertAlmostEqual(float(row["elastic_energy"]) / float(other["elastic_energy"]), 1, delta=1e-9)
             self.assertEqual({**row, "elastic_energy": ""}, {**other, "elastic_energy": ""})
         return rows
 
     def numbers(self):
-        """The rows without what takes part in no comparison: times of clocks and memory."""
+        """The rows without columns that are not compared: times of clocks and memory."""
         return [{name: value for name, value in row.items() if name == "time_step" or not ("time" in name or "memory" in name)} for row in self.rows()]
 
     def test_restart_with_other_data(self):
-        """Another content of the mesh's file or of a table is another problem, whatever the names are."""
+        """A changed mesh file or table is another problem, also with the same name."""
         mesh, table = (self.folder / name for name in ("cube.geo", "rise.csv"))
         cube = 'SetFactory("OpenCASCADE");\nBox(1) = {0, 0, 0, 1, 1, 1};\nPhysical Volume("cube") = {1};\nPhysical Surface("x-min") = {1};\n'
         mesh.write_text(cube + "MeshSize{:} = 1;\n", encoding="utf-8")
@@ -329,7 +332,7 @@ end
         first = self.numbers()
         table.write_text("0, 0\n1, 2\n", encoding="utf-8")
         second = self.check_restart(*data)
-        # A linear body, and twice the load.
+        # The body is linear and the load doubled, so the energy is four times as large.
         self.assertAlmostEqual(float(second[0]["elastic_energy"]) / float(first[0]["elastic_energy"]), 4, delta=1e-6)
         mesh.write_text(cube.replace("1, 1, 1}", "2, 1, 1}") + "MeshSize{:} = 1;\n", encoding="utf-8")
         third = self.check_restart(*data)
@@ -348,7 +351,7 @@ end
         return self.check_stopped(out, errors)
 
     def check_stopped(self, out, errors):
-        """It says so once on the terminal and once in its log. Returns the summary."""
+        """Checks that the reason is once on the terminal and once in the log. Returns the summary."""
         summary = read_summary(self.folder / "out")
         self.assertEqual(summary["status"], "stopped")
         self.assertEqual(errors, f"corotet: stopped: {summary['message']}\n")
@@ -357,14 +360,14 @@ end
         return summary
 
     def test_restart_with_another_step(self):
-        """The run that was under way begins anew: it would be part of the one, part of the other study."""
+        """The unfinished run begins anew, as it would otherwise belong to both studies."""
         moving = ("Time integration/Type = Newmark", "Time integration/End time = 2", "Checkpoint/Steps between checkpoints = 1")
         summary = self.stop_study("**/step_000003.json", *moving, "Time integration/Time step = 0.002", "Checkpoint/Keep = 1000")
         self.assertRegex(summary["message"], r"^step \d+ \(t = .* s\): SIGTERM; the run is saved, --restart goes on with it$")
         self.check_restart(*moving, "Time integration/Time step = 0.1")
 
     def test_stopped_between_runs(self):
-        """What comes in the only step of a run ends the study before the next one."""
+        """A signal in the only step of a run ends the study before the next run."""
         runs = ("Convergence study/Degrees = 1, 2, 3", "Convergence study/Refinements = 0, 1", "Mesh/box/Cells = 8, 4, 4")
         summary = self.stop_study("*.log", *runs)
         self.assertRegex(summary["message"], "^[1-5] of 6 runs: SIGTERM; they are saved, --restart goes on with the others$")
@@ -382,25 +385,25 @@ end
         return summary["message"]
 
     def test_runs_that_fail_at_their_start(self):
-        """In their first forces, or in a check that the coarsest mesh has passed."""
+        """Runs fail in their first forces, or in a check that the coarsest mesh has passed."""
         moving = ("Time integration/Type = Newmark", "Time integration/End time = 0.1", "Time integration/Time step = 0.05")
         message = self.check_failed(self.run_small(*moving, "Initial conditions/Velocity = 0; 0; 1e200", "Boundary conditions/Fixed =", status=2).stderr, "failed")
         self.assertEqual(message, "1 of 1 runs of the study have failed")
-        # Cells half as large have half the stable step.
+        # Cells of half the size have half the stable step.
         explicit = ("Time integration/Type = central difference", "Discretization/Mass = diagonal scaling", "Time integration/End time = 0.006",
                     "Time integration/Time step = 0.006", "Convergence study/Refinements = 0, 1, 2, 3", "Output/Overwrite = true")
         message = self.check_failed(self.run_small(*explicit, status=2).stderr, "done", "done", "failed", "failed")
         self.assertEqual(message, "2 of 4 runs of the study have failed")
 
     def test_finer_run_that_fails(self):
-        """The study ends with the runs that it has, and says why."""
+        """The study ends with the finished runs, and tells why."""
         strong = ("Convergence study/Reference = finer run", "Material/Type = corotational", "Loads/Gravity = 0; 0; -1e5", "Newton/Maximum iterations = 2",
                   "Time integration/Maximum halvings = 0", "Convergence study/Refinements = 0, 1")
         message = self.check_failed(self.run_small(*strong, status=2).stderr, "failed")
         self.assertRegex(message, "^the finer run has failed: .*Newton's method")
 
     def test_failed_run(self):
-        """A run that fails is a row of the table; the others are made all the same."""
+        """A failed run is a row of the table; the other runs are made nevertheless."""
         error = self.study(EXACT, "--set", "Linear solver/Maximum iterations = 3", "--set", "Linear solver/Type = jacobi",
                            status=2).stderr
         self.assertIn("runs of the study have failed", error)
@@ -409,7 +412,7 @@ end
         self.assertEqual(read_summary(self.folder / "out")["status"], "failed")
 
     def test_no_data_in_any_spelling(self):
-        """Where the data are made, zero is no datum, however it is written."""
+        """Where loads are made from the exact solution, a load of zero counts as none, however it is written."""
         settings = [word for entry in ("Loads/Gravity", "Loads/Body force", "Initial conditions/Displacement", "Initial conditions/Velocity")
                     for word in ("--set", f"{entry} = 0;0.0;-0")]
         self.study(EXACT, "--validate", *settings)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the tests of the program share. The environment says what to run: COROTET_PROGRAM, COROTET_MPIRUN (words), and, if
-short runs are to share the loading of libraries, COROTET_FORK_SERVER."""
+"""Tools that the tests of the program share. The environment gives
+COROTET_PROGRAM, COROTET_MPIRUN (words), and, if short runs are to share the
+loading of libraries, COROTET_FORK_SERVER."""
 
 import csv
 import functools
@@ -51,7 +52,8 @@ def read_summary(directory):
 
 
 def limit_files(size=2000):
-    """In a new process: files may have so many bytes. What would be more is told to programs as a full disk is."""
+    """In a new process: limits the size of files, in bytes. Programs get the
+    same error as on a full disk."""
     resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
 
 
@@ -68,22 +70,24 @@ def parameter_text(entries):
 
 @functools.cache
 def sessions():
-    """A folder for what launchers keep while they run."""
+    """A folder for the files of launchers while they run."""
     return tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
 
 def launcher(ranks):
-    """The words before a program that start it on so many ranks, once."""
+    """The words before a program that start it once on so many ranks."""
     if ranks == 1:
         return []
-    # What mpirun leaves behind when it is killed must not meet a later one with the same process id.
+    # Files that a killed mpirun leaves must not affect a later one with the
+    # same process id.
     session = tempfile.mkdtemp(dir=sessions().name)
-    # The last word is a number of ranks.
+    # The last word of the variable is a number of ranks, which is replaced.
     return ["env", f"TMPDIR={session}", *shlex.split(os.environ["COROTET_MPIRUN"])[:-1], str(ranks)]
 
 
 class ForkServer:
-    """Runs the program on one rank, many times, in children of one process (fork_server.cc), which has loaded its libraries."""
+    """Runs the program on one rank, many times, in children of one process
+    (fork_server.cc) that has loaded its libraries."""
 
     def __init__(self, server, preloaded):
         environment = {**os.environ, "LD_PRELOAD": preloaded} if preloaded else None
@@ -91,7 +95,8 @@ class ForkServer:
         self.files = tempfile.TemporaryDirectory(ignore_cleanup_errors=True)
 
     def run(self, arguments, folder, timeout, memory, environment):
-        """A CompletedProcess with bytes, and the processor time in seconds."""
+        """Returns a CompletedProcess with bytes, and the processor time in
+        seconds."""
         output, errors = (pathlib.Path(self.files.name) / name for name in ("output", "errors"))
         arguments = [os.environ["COROTET_PROGRAM"], *map(str, arguments)]
         request = {"arguments": arguments, "folder": str(folder), "output": str(output), "errors": str(errors), "timeout": timeout, "memory": memory,
@@ -105,7 +110,7 @@ class ForkServer:
 
 @functools.cache
 def fork_server(preloaded=None):
-    """The one of this process that was started with that library."""
+    """The fork server of this process that was started with that library."""
     return ForkServer(os.environ["COROTET_FORK_SERVER"], preloaded)
 
 
@@ -139,7 +144,8 @@ def run_on(ranks, arguments, folder, timeout=600, **environment):
 
 @functools.cache
 def is_allowed(section, entry, value):
-    """Whether this program knows that value: some need optional parts of the build."""
+    """Whether this program accepts the value: some need optional parts of the
+    build."""
     program = [os.environ["COROTET_PROGRAM"], "--print-parameters", "markdown"]
     parameters = subprocess.run(program, capture_output=True, text=True, check=True).stdout
     allowed = re.search(rf"## {section}\n.*?\| {entry} \| [^|]* \| one of ([^|]*) \|", parameters, re.DOTALL).group(1)

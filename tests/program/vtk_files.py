@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Meshes from files that VTK has written, in all its formats, degrees 1 to 3; those that are no meshes, or damaged, are refused."""
+"""Meshes in files that VTK has written, in all its formats, degrees 1 to 3;
+files without a mesh, or damaged ones, are refused."""
 
 import itertools
 import os
@@ -56,7 +57,8 @@ def two_cubes(degree, kind):
 
 
 def write(grid, path, settings):
-    """By VTK: names of the writer's functions, and their arguments."""
+    """Writes a grid with VTK's writer; settings are names of its functions, and
+    their arguments."""
     writer = vtkXMLUnstructuredGridWriter() if path.suffix == ".vtu" else vtkUnstructuredGridWriter()
     writer.SetInputData(grid)
     writer.SetFileName(str(path))
@@ -65,7 +67,7 @@ def write(grid, path, settings):
     assert writer.Write() == 1
 
 
-# File, settings of the writer.
+# Names of files, and settings of the writer.
 FORMS = {"text_4.vtk": [("SetFileTypeToASCII",), ("SetFileVersion", 42)], "bytes_4.vtk": [("SetFileTypeToBinary",), ("SetFileVersion", 42)],
          "text_5.vtk": [("SetFileTypeToASCII",), ("SetFileVersion", 51)], "bytes_5.vtk": [("SetFileTypeToBinary",), ("SetFileVersion", 51)],
          "text.vtu": [("SetDataModeToAscii",)], "base64.vtu": [("SetDataModeToBinary",)], "appended.vtu": [("SetDataModeToAppended",)],
@@ -77,7 +79,8 @@ FORMS = {"text_4.vtk": [("SetFileTypeToASCII",), ("SetFileVersion", 42)], "bytes
 class VtkFiles(ProgramTest):
 
     def volumes(self, file):
-        """Of regions, and areas of boundaries, by name, as `corotet mesh` says; and the number of cells."""
+        """The volumes of regions and areas of boundaries by name, from `corotet
+        mesh`; and the number of cells."""
         lines = self.run_program("mesh", file).stdout.splitlines()
         result, part = {}, None
         for line in lines:
@@ -96,7 +99,8 @@ class VtkFiles(ProgramTest):
                 self.assertEqual(self.volumes(file), ({"7": 1, "9": 1, "4": 1}, 12))
 
     def test_lagrange(self):
-        """As long as nodes are in their places, straight cells are recognised as straight."""
+        """Straight cells with Lagrange nodes in their places are recognised as
+        straight."""
         for degree in 1, 2, 3:
             with self.subTest(degree=degree):
                 file = self.folder / f"lagrange_{degree}.vtu"
@@ -105,7 +109,8 @@ class VtkFiles(ProgramTest):
                 self.assertNotIn("curved", self.run_program("mesh", file).stdout)
 
     def test_zero(self):
-        """0 is a number like others; without numbers all is one region, and triangles mean nothing."""
+        """0 is a number like others; without numbers there is one region, and
+        triangles have no meaning."""
         for numbers, expected in ((0, 1, 5), {"0": 1, "1": 1, "5": 1}), ((1, 2, 0), {"1": 1, "2": 1, "0": 1}), (None, {"0": 2}):
             with self.subTest(numbers=numbers):
                 grid = two_cubes(1, VTK_TETRA)
@@ -118,7 +123,8 @@ class VtkFiles(ProgramTest):
                 self.assertEqual(self.volumes(self.folder / "zero.vtu"), (expected, 12))
 
     def numbered(self, *arrays):
-        """The log's line about numbers of a file whose cells have these data: names and values of the cubes and the triangles."""
+        """The line of the log about numbers, for a file whose cells have these
+        data: names, and values of the cubes and the triangles."""
         grid = two_cubes(1, VTK_TETRA)
         grid.GetCellData().Initialize()
         for name, values in arrays:
@@ -130,7 +136,8 @@ class VtkFiles(ProgramTest):
         return file
 
     def test_names_of_data(self):
-        """The log says which data of cells give the numbers, and what might have been meant."""
+        """The log tells which data of cells give the numbers, and which others
+        might have been meant."""
         for arrays, volumes, remark in (
             ([("Material", (7, 9, 4))], {"7": 1, "9": 1, "4": 1}, "regions and boundaries are numbered by the data of cells 'Material'"),
             ([("part", (7, 9, 4)), ("Region", (1., 2., 3.)), ("my id", (1, 2, 3)), ("stress", (1.5, 2., 3.))], {"1": 1, "2": 1, "3": 1},
@@ -146,7 +153,8 @@ class VtkFiles(ProgramTest):
                 self.assertIn(remark + "\n", self.run_program("mesh", file).stdout)
 
     def test_wrong_numbers(self):
-        """Data with the name of numbers that are none are not passed over in silence."""
+        """Data whose name is one of numbers, but whose values are not, are
+        reported."""
         for name, values, found in (("region", (-1, 4, 9), "-1"), ("region", (1, 2**31, 9), "2147483648"), ("Material", (1.5, 4., 9.), "1.5"),
                                     ("cell_tags", (-3, 4, -9), "-3"), ("part", (1., float("nan"), 9.), "nan")):
             with self.subTest(name, found=found):
@@ -160,7 +168,7 @@ class VtkFiles(ProgramTest):
             self.assertEqual(self.volumes(self.folder / "a part")[1], 12)
 
     def test_own_export(self):
-        """What `export --to vtu` writes of a run is a mesh again."""
+        """The output of `export --to vtu` for a run is a mesh again."""
         self.run_program(self.case(), "--output", "out")
         subprocess.run([sys.executable, ROOT / "scripts" / "export", "out", "--to", "vtu", "--out", "body.pvd"], cwd=self.folder, check=True,
                        capture_output=True)
@@ -188,7 +196,7 @@ class VtkFiles(ProgramTest):
         for name, settings in FORMS.items():
             file = self.folder / name
             grid = two_cubes(2, VTK_QUADRATIC_TETRA)
-            # Behind the cells, legacy files have data on them.
+            # Legacy files have data behind the cells, which this removes.
             grid.GetCellData().Initialize()
             write(grid, file, settings)
             content = file.read_bytes()
@@ -217,14 +225,16 @@ class VtkFiles(ProgramTest):
         self.refuse(file)
 
     def test_full_disk(self):
-        """What is said of it is for the program, with the status of the machine's mistakes."""
+        """A full disk is reported for the program, with the status for errors
+        of the machine."""
         write(two_cubes(3, VTK_LAGRANGE_TETRAHEDRON), self.folder / "part.vtu", [])
         run = subprocess.run([sys.executable, "-B", ROOT / "scripts" / "read_vtk", "part.vtu", "part.msh"], cwd=self.folder, capture_output=True, text=True,
                              check=False, preexec_fn=limit_files)
         self.assertEqual((run.returncode, run.stdout, run.stderr), (3, "part.msh: File too large\n", ""))
 
     def test_no_python(self):
-        """Without Python the files of VTK cannot be read; it is said what is missing."""
+        """Without Python files of VTK cannot be read; the message tells what is
+        missing."""
         write(two_cubes(1, VTK_TETRA), self.folder / "part.vtu", [])
         run = subprocess.run([os.environ["COROTET_PROGRAM"], "mesh", "part.vtu"], cwd=self.folder, capture_output=True, text=True, check=False,
                              env={**os.environ, "PATH": str(self.folder)})

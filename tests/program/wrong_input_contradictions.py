@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Rows of wrong_inputs.py: values that are allowed one by one and contradict each other, the mesh or physics; texts that are wrong."""
+"""Rows of wrong_inputs.py: values that are allowed separately, but contradict
+each other, the mesh or physics; and wrong texts."""
 
 from wrong_input_rows import wrong
 
@@ -14,25 +15,27 @@ CHECKED = ("Verification/Source = theory", "Verification/Tolerance reason = roun
 LONG = 3000 * "9"
 FIXED, DISPLACEMENT, TRACTION, PRESSURE = ("Boundary conditions/" + name for name in ("Fixed", "Displacement", "Traction", "Pressure"))
 ADAPTIVE = "Time integration/Adaptive step/"
-# Each vector of a load, behind the entry and " = ".
+# Entries with vectors, and the text around a vector behind " = ".
 LOADS = {"Loads/Gravity": "{}", "Loads/Body force": "{}", "Loads/Point forces": "1 0 0: {}", TRACTION: "x-max: {}", "Supports/Dashpots": "x-max: {}",
          "Initial conditions/Displacement": "{}", "Initial conditions/Velocity": "{}", "Supports/Elastic": "x-max: {}"}
 
 
 def formula_rows():
-    """Formulas that are none, or not finite where and when they are needed."""
+    """Texts that are no formulas, or that are not finite where and when they
+    are needed."""
     kinds = (("one component", "1", "1 component", "3 are needed"), ("unknown name", "0; 0; sine(t)", "unknown name"),
              ("misspelt function", "0; 0; smooth_stepp(t, 0, 1)", 'did you mean "smooth_step"?'), ("open bracket", "0; 0; (1", "is no formula"),
              ("infinite", "0; 0; 1/0", "found infinity"), ("root of a negative number", "sqrt(-1); 0; 0", "found not a number"), ("empty component", "0; ; 0", "it is empty"),
              ("infinite at a point", "0; 0; 1/x^2", "found infinity"), ("far too long", "0; 0; " + LONG + "+", "characters)"), ("assignment", "0; 0; x=1", "assigns"),
              ("random", "0; 0; rand()", "depend"))
     for number, (entry, form) in enumerate(LOADS.items()):
-        # All kinds with the first; of the others some by turns.
+        # The first entry has all kinds of mistakes; the others have some in
+        # turn.
         for kind, text, *parts in kinds if number == 0 else [kinds[(2 * number + i) % len(kinds)] for i in range(2)]:
             if kind == "infinite at a point" and ("x-max" in form or "1 0 0" in form):
                 text = text.replace("1/x^2", "1/(x-1)^2")
             if entry.startswith("Supports/"):
-                # These look at their values themselves.
+                # These entries check their values themselves, with other words.
                 parts = [{"found infinity": "value inf", "found not a number": "nan"}.get(part, part) for part in parts]
             yield wrong(f"{entry}, {kind}", f"{entry} = {form.format(text)}", *parts)
     for entry, value in (("Loads/Gravity", "0; 0; 1/(1-t)"), (TRACTION, "x-max: 0; 0; log(1-t)"), (PRESSURE, "x-max: sqrt(0.5-t)"),
@@ -80,7 +83,7 @@ def boundary_rows():
 
 
 def place_rows():
-    """Edges and corners, by their names."""
+    """Rows about names of edges and corners."""
     edge, corner = "Selections/Edges = rim: x-max and z-max", "Selections/Corners = tip: x-max and y-max and z-max"
     for entry, selection, kind in ((TRACTION, edge, "an edge"), (PRESSURE, corner, "a corner"), ("Supports/Elastic", corner, "a corner"),
                                    ("Supports/Elastic normal", edge, "an edge"), ("Supports/Dashpots", edge, "an edge")):
@@ -153,7 +156,8 @@ def time_rows():
         settings = (f"Time integration/Type = {kind}", *EXPLICIT[1:], ADAPTIVE + "Enabled = true")
         settings = settings if kind == "central difference" else (settings[0], settings[-1])
         yield wrong(f"adaptive steps of {kind}", settings, "estimate their error")
-    # At 1/6 the estimate vanishes, and below 1/4 steps are stable on a condition.
+    # At beta = 1/6 the error estimate vanishes, and below 1/4 only small steps
+    # are stable.
     for beta in ("0.16666666666666666", "0.1667", "0.2499"):
         yield wrong(f"adaptive steps of Newmark with beta = {beta}", ("Time integration/Type = Newmark", f"Time integration/Newmark/Beta = {beta}",
                                                                     ADAPTIVE + "Enabled = true"), "estimate their error", "beta of at least 1/4")

@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Rows of wrong_inputs.py: files that are wrong, and what the command line says of them."""
+"""Rows of wrong_inputs.py: wrong files, and the messages of the command line
+about them."""
 
 from wrong_input_rows import SMALL, Row, parameter_file, wrong
 
-# Corners of a unit cube's first tetrahedron, and one more.
+# The corners of the first tetrahedron of a unit cube, and one more.
 NODES = ((0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1), (1, 1, 1))
 TETRAHEDRON, TRIANGLE = 4, 2
 
 
 def mesh(elements, nodes=NODES, groups=(), version="2.2"):
-    """A .msh of version 2.2: elements are (type, physical group, surface or volume, node, node, ...), groups (dimension, id, name)."""
+    """The text of a .msh file of version 2.2: elements are (type, physical
+    group, surface or volume, node, node, ...), groups (dimension, id, name)."""
     lines = ["$MeshFormat", f"{version} 0 8", "$EndMeshFormat"]
     if groups:
         lines += ["$PhysicalNames", str(len(groups)), *(f'{dimension} {number} "{name}"' for dimension, number, name in groups), "$EndPhysicalNames"]
@@ -85,7 +87,7 @@ def mesh_rows():
             ("inverted", nodes + "*ELEMENT,TYPE=C3D4\n1,1,3,2,4\n", "", "cell")):
         yield mesh_row(f"Abaqus: {name}", content, *parts, file="x.inp", place=f"x.inp:{line}" if line else "x.inp: ")
     yield mesh_row("STEP of nothing", "ISO-10303-21;\nHEADER;\n", "gmsh", file="x.step", place="x.step: ")
-    # A body of two parts, one of which nothing holds.
+    # A body of two parts, one of which is not held.
     apart = mesh([GOOD, (4, 2, 2, 5, 6, 7, 8), (2, 3, 1, 1, 2, 3)], (*NODES[:4], (5, 0, 0), (6, 0, 0), (5, 1, 0), (5, 0, 1)),
                  groups=((3, 1, "held"), (3, 2, "loose"), (2, 3, "base")))
     yield mesh_row("statics of two bodies", apart, "the part at (5.25, 0.25, 0.25) of region 'loose' can move in any direction",
@@ -199,7 +201,8 @@ def output_rows():
                       ["case.prm", "--quiet", "--output", directory, *validate], {"case.prm": text, **more}, status)
     yield Row("output: overwrite what is no result", ["holds no results of corotet"], "--output: Output/Directory: ",
               ["case.prm", "--quiet", "--output", "results", "--set", "Output/Overwrite = true"], {"case.prm": text, "results/letter.txt": ""})
-    # The second one builds its mesh until the memory is used up: little of it, so that this takes far less than the two seconds.
+    # The second case makes its mesh until it runs out of memory: the limit is
+    # low, so that this takes far less than the two seconds.
     for name, memory, cells, *parts in (("of a box", 2**30, "2000, 100, 90", "2000 x 100 x 90 cuboids would need at least", "found are 1.07 GB"),
                                         ("that runs out", 3 * 2**28, "100, 50, 50", "this process has", "may have no more than 0.805 GB")):
         row = wrong(f"memory {name}", ("Discretization/Degree = 1", f"Mesh/box/Cells = {cells}"), status=3, memory=memory)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The table of wrong_inputs.py. What parameters may be is what the program lists of them; the rest is written down here and in
-wrong_input_files.py.
+"""The table of wrong_inputs.py. Allowed values of parameters are those that the
+program lists; other rows are in this file and in wrong_input_files.py.
 """
 
 import dataclasses
@@ -16,20 +16,21 @@ import subprocess
 @dataclasses.dataclass
 class Row:
     name: str
-    # Parts of the message, beside its place.
+    # Parts that the message must have, besides its place.
     parts: list
-    # What follows "corotet: error: ".
+    # The place that follows "corotet: error: ".
     place: str
     arguments: list
     files: dict
     status: int = 1
-    # Limit of its memory [byte], if there is one.
+    # The limit of the program's memory [bytes], if there is one.
     memory: int = 0
 
 
 @functools.cache
 def parameters():
-    """All entries, "Section/Name", with the program's description of what they may be."""
+    """All entries, "Section/Name", with the program's description of their
+    values."""
     listing = subprocess.run([os.environ["COROTET_PROGRAM"], "--print-parameters", "json"], capture_output=True, text=True, check=True).stdout
     entries = {}
 
@@ -44,7 +45,8 @@ def parameters():
 
 
 def parameter_file(settings):
-    """Text with these settings, "Section/Name = value", and the line of each."""
+    """The text with these settings, "Section/Name = value", and the line of
+    each."""
     lines, places = [], []
     for setting in settings:
         path, _, value = setting.partition("=")
@@ -56,18 +58,20 @@ def parameter_file(settings):
     return "\n".join(lines) + "\n", places
 
 
-# Small, and held, so that statics are possible.
+# A small body that is held, so that statics is possible.
 SMALL = ("Mesh/box/Cells = 2, 1, 1", "Discretization/Degree = 1", "Boundary conditions/Fixed = x-min")
 count = itertools.count()
 
 
 def wrong(name, settings, *parts, blamed=-1, by_option=None, validate=True, files=None, arguments=(), **others):
-    """A row whose settings are wrong; what is blamed is the one with that number, None: the whole file. They stand in the file or, by
-    turns, the last one behind --set. A setting that SMALL has, too, replaces it."""
+    """A row whose settings are wrong; the message must blame the setting with
+    the number `blamed`, or for None the whole file. Settings are in the file,
+    and in turn the last one is given by --set. A setting replaces that of SMALL
+    for the same entry."""
     settings = [settings] if isinstance(settings, str) else list(settings)
     entry_of = lambda setting: setting.partition("=")[0].strip()
     base = [setting for setting in SMALL if entry_of(setting) not in map(entry_of, settings)]
-    # Values with these cannot stand in a file.
+    # Values with these characters cannot be in a file.
     if by_option is None:
         by_option = next(count) % 3 == 0
     in_file = settings[:-1] if by_option else settings
@@ -85,14 +89,16 @@ def wrong(name, settings, *parts, blamed=-1, by_option=None, validate=True, file
 
 
 def bounds(pattern):
-    """Lower and upper bound of a pattern "[Double a...b (inclusive)]", None where there is none."""
+    """The lower and upper bound of a pattern "[Double a...b (inclusive)]", None
+    where there is none."""
     lower, upper = re.search(r"(\S+)\.\.\.(\S+) \(inclusive\)", pattern).groups()
     unbounded = ("-MAX_DOUBLE", "MAX_DOUBLE", str(2**31 - 1))
     return (None if lower in unbounded else float(lower)), (None if upper in unbounded else float(upper))
 
 
 def out_of_range(pattern, number, step):
-    """A value below or, for odd numbers, above the range, or beyond all numbers where there is no bound."""
+    """A value below or, for odd @p number, above the range, or beyond all
+    numbers where there is no bound."""
     lower, upper = bounds(pattern)
     choices = [f"{lower - step:.17g}"] if lower is not None else []
     choices += [f"{upper + step:.17g}"] if upper is not None else []
@@ -100,7 +106,8 @@ def out_of_range(pattern, number, step):
 
 
 def values_for(pattern, number):
-    """Wrong values of an entry, with what kind of wrong they are; kinds that are alike take turns with @p number."""
+    """Wrong values for an entry, with the kind of mistake; similar kinds take
+    turns with @p number."""
     turn = lambda *choices: choices[number % len(choices)]
     if pattern.startswith("[Double"):
         return [*([("not a number", "nan")] if number % 2 else []), ("out of range", out_of_range(pattern, number, 1e-3)),

@@ -3,12 +3,16 @@
 # Copyright (C) 2026 by the corotet authors
 """Wrong inputs, each refused with its message: wrong_inputs.py [--count] [--every N] [--seconds LIMIT]
 
-The table is in wrong_input_rows.py: every parameter with values of the wrong type, out of range, not a number, infinite, empty or far
-too long; what contradicts itself; meshes, tables and files that are none. Of each the exit status, the place that is named (file and
-line, or --set), and parts of the one line that is said must be right; nothing may be on standard output, no output directory may have
-been made, and it may take no more than LIMIT seconds of processor time.
+The table is in wrong_input_rows.py: every parameter with values of the wrong
+type, out of range, not a number, infinite, empty or far too long;
+contradictions; files that are no meshes, tables or parameter files. For each
+row the exit status, the place (file and line, or --set) and parts of the one
+line of the message must be right; nothing may be on standard output, no output
+directory may have been made, and the run may take no more than LIMIT seconds of
+processor time.
 
-With --every N only each N-th row is run, with --only TEXT those whose name has that. With --count one line says how many there are. COROTET_PROGRAM is the program.
+With --every N only each N-th row is run, with --only TEXT those whose name
+contains it. --count shows the number of rows. COROTET_PROGRAM is the program.
 """
 
 import argparse
@@ -29,13 +33,13 @@ def write_files(row, folder):
 
 
 def start(row, folder):
-    """Runs the program; the exit status, what it has said, and the processor time."""
+    """Runs the program; returns its exit status, output and processor time."""
     run, used = run_alone(row.arguments, folder, 60, row.memory)
     return run.returncode, run.stdout, run.stderr.decode(errors="backslashreplace"), used
 
 
 def mistakes_of(row, seconds):
-    """What is not as it should be, and the processor time."""
+    """Lines on wrong results of a row, and the processor time."""
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         write_files(row, folder)
@@ -72,7 +76,7 @@ def main():
     parser.add_argument("--seconds", type=float, default=2)
     parser.add_argument("--only", default="", help="rows whose name has this")
     options = parser.parse_args()
-    # A program with assertions or sanitizers needs more memory to begin with.
+    # A program with assertions or sanitizers needs more memory from the start.
     rows = [row for row in all_rows()[::options.every] if options.only in row.name and not (options.every > 1 and row.memory)]
     names = [row.name for row in rows]
     assert len(set(names)) == len(names), [name for name in names if names.count(name) > 1]

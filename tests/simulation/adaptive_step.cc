@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Time steps that follow their error.
+// Time steps that adapt to their error.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -50,7 +50,8 @@ TEST_P(Adaptive, ErrorFollowsTarget)
 {
   if (!on_one_rank())
     GTEST_SKIP();
-  // Error 1e-7, from steps 200 times shorter than the push.
+  // The reference has an error of 1e-7, as steps are 200 times shorter than the
+  // push.
   CompleteRun reference(beam(time_integration("central difference", 4, 2e-4)));
   ASSERT_EQ(reference.run(), "");
   std::vector<double> errors, targets{1e-3, 1e-4, 1e-5, 1e-6};
@@ -66,7 +67,7 @@ TEST_P(Adaptive, ErrorFollowsTarget)
                          run.recorder().summary.steps,
                          run.recorder().records.back().rejected_steps),
              errors.back());
-      // Steps differ: the push is shorter than what is around it.
+      // Steps must differ, as the push is shorter than the motion around it.
       double shortest = 1, longest = 0;
       for (const StepRecord &record : run.recorder().steps)
         {
@@ -90,8 +91,8 @@ INSTANTIATE_TEST_SUITE_P(
   })),
   [](const auto &info) { return letters_and_digits(info.param); });
 
-// Results at exact times whatever the steps are, and a budget that has not
-// noticed the steps that were repeated.
+// Results are at exact times whatever the steps are, and the energy budget does
+// not include repeated steps.
 TEST(AdaptiveStep, ResultsAtExactTimes)
 {
   CompleteRun run(beam(adaptive("Newmark", 1e-3)));
@@ -112,9 +113,9 @@ TEST(AdaptiveStep, ResultsAtExactTimes)
             records.back().external_work);
 }
 
-// A body at rest until a load begins, where any step makes a large error, is
-// moved by the smallest steps, however times are rounded: as parts of runs of
-// many lengths.
+// Before a load begins the body is at rest, and any step into the load has a
+// large error. Such steps shrink to the smallest step and no further, however
+// times are rounded in runs of many durations.
 TEST(AdaptiveStep, LoadsThatBeginLater)
 {
   if (!on_one_rank())
@@ -142,7 +143,7 @@ TEST(AdaptiveStep, LoadsThatBeginLater)
   run(0.05, 0.3, 0.);
 }
 
-// Bounds are kept; steps at the lower one are taken with the error they make.
+// Bounds are kept; steps of the smallest size are accepted with any error.
 TEST(AdaptiveStep, Bounds)
 {
   if (!on_one_rank())
@@ -157,8 +158,8 @@ TEST(AdaptiveStep, Bounds)
       EXPECT_LE(steps[i].dt, 0.04 * (1 + 1e-12));
     }
   EXPECT_GE(steps.size(), 190u);
-  // A largest step far below the first one: without a smallest one, the error
-  // still counts, and steps are repeated.
+  // The largest step is far below the first one. Without a smallest step the
+  // error still counts, so steps are repeated.
   CompleteRun tiny(beam(time_integration(
     "Newmark",
     2e-3,
@@ -184,9 +185,9 @@ TEST(AdaptiveStep, Bounds)
             0u);
 }
 
-// A run begins with steps of a millionth of the given one, in which the mass is
-// all there is: the rotations of vertices, on a body of stretched cells, have
-// none where they are the same everywhere.
+// The run begins with steps of a millionth of the given one, in which the
+// matrix is nearly all mass. Rotations of vertices, used for bodies of
+// stretched cells, have no mass where they are the same everywhere.
 TEST(AdaptiveStep, ShortStepsOfThinBodies)
 {
   const auto energy = [](const std::string &solver) {
@@ -202,7 +203,7 @@ TEST(AdaptiveStep, ShortStepsOfThinBodies)
     EXPECT_EQ(run.run(), "") << solver;
     return run.recorder().records.back().kinetic_energy;
   };
-  // Newton's method and the steps are as good as that.
+  // The tolerance is that of Newton's method and of the steps.
   const double direct = energy("direct");
   EXPECT_NEAR(energy("p-multigrid"), direct, 1e-6 * direct);
 }

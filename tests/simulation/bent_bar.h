@@ -10,8 +10,8 @@
 
 namespace corotet::tests
 {
-  /// A bar of 1 x 0.1 x 0.1 that is bent far, clamped at one end, with a
-  /// traction in direction z at the other. With few iterations large steps
+  /// A bar of 1 x 0.1 x 0.1, clamped at one end, that is bent far by a traction
+  /// in direction z at the other. With a low limit of iterations large steps
   /// fail and are made in parts.
   inline std::string
   bent_bar(const std::string &integration,

@@ -200,7 +200,7 @@ TEST(CommandLine, RefusesAnUnknownStyle)
             "are prm, json, markdown, schema");
 }
 
-// What they list are defaults and what is allowed, whatever a file says.
+// These styles list defaults and allowed values, which do not depend on a file.
 TEST(CommandLine, RefusesAFileForStylesWithoutValues)
 {
   for (const std::string style : {"markdown", "schema"})

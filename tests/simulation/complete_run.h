@@ -47,10 +47,10 @@ namespace corotet::tests
       summary = run_summary;
     }
 
-    /// All records; those of steps; those of saved states.
+    /// All records, those of steps, and those of saved states.
     std::vector<StepRecord> records, steps, saved;
     RunSummary              summary;
-    /// Of the last state.
+    /// The displacement of the last state.
     Vector      displacement;
     std::size_t cells = 0;
     bool        last  = false;
@@ -78,7 +78,7 @@ namespace corotet::tests
       observers.push_back(std::make_unique<Recorder>());
     }
 
-    /// Returns why the computation failed; an empty text if it did not.
+    /// Returns why the computation failed; an empty text if it succeeded.
     std::string
     run(const OutputTimes &recording = {})
     {
@@ -105,7 +105,7 @@ namespace corotet::tests
     std::vector<std::unique_ptr<Observer>> observers;
   };
 
-  /// What the run has warned of by now, on all ranks. Collective.
+  /// The warnings of the run so far, on all ranks. Collective.
   inline std::vector<std::string>
   warnings(CompleteRun &run)
   {

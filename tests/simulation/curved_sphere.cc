@@ -49,9 +49,9 @@ namespace
 
   struct Errors
   {
-    // Of the displacement in L2, over its norm.
+    // The error of the displacement in L2, relative to its norm.
     double u = 1;
-    // Of the volume, over it.
+    // The relative error of the volume.
     double       volume = 1;
     unsigned int cells  = 0;
   };
@@ -106,11 +106,11 @@ namespace
   }
 } // namespace
 
-// Theory: p + 1 on curved cells of degree p. On straight ones the surface is
-// wrong by h^2, and so is the displacement, whatever the degree. Refined by
-// gmsh, whose new vertices lie on the spheres: the first meshes, with two cells
-// across the wall, are not yet fine enough for more than p on curved cells.
-// Prints the table of doc/curved.md.
+// In theory the order is p + 1 on curved cells of degree p. On straight cells
+// the surface has an error of h^2, so the displacement has order 2 for any
+// degree. gmsh refines the meshes and puts new vertices on the spheres: the
+// first meshes, with two cells across the wall, are not yet fine enough for
+// more than order p on curved cells. Prints the table of doc/curved.md.
 TEST(CurvedSphere, Orders)
 {
   constexpr unsigned int n_refinements = 2;
@@ -132,7 +132,7 @@ TEST(CurvedSphere, Orders)
                                n == 0 ? "" : fmt::format("{:.2f}", order),
                                now.volume)
                 << std::endl;
-            // Orders of curved cells are still coming in.
+            // The orders on curved cells are reached only on the finest meshes.
             if (n == n_refinements)
               {
                 EXPECT_NEAR(order,

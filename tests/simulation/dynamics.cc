@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Dynamics against conservation laws and exact motions.
+// Dynamics compared with conservation laws and exact motions.
 
 #include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/backward_euler.h>
@@ -20,7 +20,7 @@ using dealii::Tensor;
 
 namespace
 {
-  // Steps @p body from time 0 to @p end.
+  // Makes @p n steps of @p body from time 0 to @p end.
   StepRecord
   run(MovingBody     &body,
       TimeIntegrator &integrator,
@@ -116,7 +116,7 @@ TEST_P(DynamicsTest, FreeFall)
       const Vector     exact  = body.interpolate(
         [](const Point<3> &) { return Tensor<1, 3>({2., 0., -20.}); });
       EXPECT_LE(largest_difference(body.state.u, exact), 1e-10);
-      // Work of gravity is kinetic energy; momentum is m g t.
+      // The work of gravity equals the kinetic energy; the momentum is m g t.
       EXPECT_NEAR(record.kinetic_energy, 1000 * 0.5 * 4 * 101, 1e-4);
       EXPECT_NEAR(record.energy_balance, 0, 1e-10 * record.kinetic_energy);
       EXPECT_NEAR(record.momentum[2], -1000 * 20, 1e-6);
@@ -155,7 +155,8 @@ INSTANTIATE_TEST_SUITE_P(Bubbles,
 
 namespace
 {
-  // Order of a corotational beam's tip motion, by runs with n, 2n and 4n steps.
+  // The order of a corotational beam's tip motion, from runs with n, 2n and 4n
+  // steps.
   double
   beam_order(TimeIntegrator &integrator, const unsigned int n)
   {
@@ -190,9 +191,10 @@ TEST(Dynamics, TemporalOrders)
   EXPECT_NEAR(beam_order(generalized_alpha, 100), 2, 0.1);
 }
 
-// Supports that move put the right inertia forces in: all supports accelerate
-// by the same law, d = t^3 / 6 along x; a stiff body follows rigidly, the force
-// of the supports is m t and their work the kinetic energy m (t^2/2)^2 / 2.
+// Moving supports cause the correct inertia forces: all supports accelerate by
+// the same law, d = t^3 / 6 along x, and a stiff body follows rigidly. The
+// force of the supports is m t and their work the kinetic energy m (t^2/2)^2 /
+// 2.
 TEST(Dynamics, MovingSupports)
 {
   for (const std::string mass : {"consistent", "diagonal scaling"})
@@ -202,7 +204,8 @@ TEST(Dynamics, MovingSupports)
                         displacements(
                           "x-min: t^3/6; 0; 0, x-max: t^3/6; 0; 0") +
                         section("Time integration", {{"Time step", 0.01}}));
-      // Damps the body's own vibrations, whose periods are below the step.
+      // This integrator damps the body's own vibrations, whose periods are
+      // below the step.
       GeneralizedAlpha integrator;
       integrator.spectral_radius = 0;
       const StepRecord record    = run(body, integrator, 1., 100);
@@ -215,7 +218,7 @@ TEST(Dynamics, MovingSupports)
     }
 }
 
-// Damping: what is lost is accounted for, with both coefficients.
+// With both coefficients of damping the budget accounts for the lost energy.
 TEST(Dynamics, RayleighDamping)
 {
   MovingBody body(box("2, 1, 1", "2, 1, 1", 0.),
@@ -243,15 +246,15 @@ TEST(Dynamics, MassDampingOfRigidMotion)
   Newmark    newmark;
   run(body, newmark, 1., 1000);
   for (unsigned int n = 0; n < body.discretization.n_owned_nodes(); ++n)
-    // Second order: error (2 dt)^2 / 12 of the value.
+    // The relative error of second order is (2 dt)^2 / 12.
     EXPECT_NEAR(body.state.v.local_element(3 * n), 3 * std::exp(-2.), 1e-6);
 }
 
 // Steel under a load that starts gently: in the first step its forces are below
-// what round-off makes of the stresses. Newton's method must not insist on a
-// residual that no displacement has; and the motion is that of linear
-// elasticity (displacements of 1e-9), as far as round-off of the strain, 1e-15
-// of some 1e-9, lets one tell.
+// the round-off of stresses. Newton's method must not insist on a residual that
+// no displacement can have. The motion is that of linear elasticity
+// (displacements of 1e-9), up to the round-off of strains, 1e-15 relative to
+// some 1e-9.
 TEST(Dynamics, GentleStartOfStiffBody)
 {
   double tip[2];

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Bodies on springs at rest: statics, what holds a body, stiff springs, modes.
+// Bodies on springs at rest: statics, supports that are sufficient, stiff
+// springs, modes.
 
 #include <corotet/solvers/preconditioners.h>
 #include <corotet/time_integration/load_stepping.h>
@@ -24,7 +25,7 @@ using dealii::numbers::PI;
 
 namespace
 {
-  // The same along all axes.
+  // Springs with the same stiffness along all axes.
   std::string
   springs(const std::string &boundary, const double k)
   {
@@ -32,17 +33,18 @@ namespace
   }
 } // namespace
 
-// A block of 2 kg on springs of 8 N/m^3 under its weight, 10 m/s^2: along x, y,
-// z the springs give by m g / (k A), of 1 m^2. Without lateral contraction only
-// z deforms the block, by g z (H - z / 2) rho / E, which with E = 1e9 is 2e-8
-// of it; across, shear does by as much. Elements of all kinds, both materials.
+// A block of 2 kg on springs of 8 N/m^3 under its weight, 10 m/s^2, along x, y
+// or z: the springs, on an area A of 1 m^2, yield by m g / (k A). Without
+// lateral contraction only a weight along z stretches the block, by g z (H - z
+// / 2) rho / E, which with E = 1e9 is 2e-8 of the displacement; across, shear
+// is as small. Checked for all elements and both materials.
 TEST(ElasticSupports, BlockSinks)
 {
   for (const Element element :
        {Element(1), Element(2), Element(3), Element::quadratic_with_bubbles()})
     for (const std::string type : {"linear", "corotational"})
       {
-        // Corotational: no moments, which would turn the block.
+        // A corotational body gets no moments, which would rotate it.
         const bool  is_linear = type == "linear";
         CompleteRun run(supported_box("1, 1, 2", "1, 2, 2", 1e9, type) +
                         element_text(element) + supports("z-min: 4; 5; 8") +
@@ -52,7 +54,7 @@ TEST(ElasticSupports, BlockSinks)
         const double expected = is_linear ? -2.5 : -0.025;
         EXPECT_NEAR(mean_displacement(run, 2), expected, 1e-7);
         const StepRecord &record = last_record(run);
-        // Half of the work of the weight, all of it in the springs.
+        // The springs store half of the work of the weight.
         EXPECT_NEAR(record.elastic_energy, 4 * expected * expected, 1e-6);
         EXPECT_NEAR(record.energy_balance, 0, 1e-9 * record.elastic_energy);
         if (is_linear)
@@ -62,7 +64,7 @@ TEST(ElasticSupports, BlockSinks)
       }
 }
 
-// Statics knows what springs hold, and says what they do not.
+// Statics takes account of springs, and tells the motions that they leave free.
 TEST(ElasticSupports, RigidMotions)
 {
   const auto refusal_of = [](const std::string &text) {
@@ -87,18 +89,18 @@ TEST(ElasticSupports, RigidMotions)
               end);
   EXPECT_EQ(refusal_of(supports("z-min: 0; 0; 1", "x-max: 2")),
             begin + "move along y" + end);
-  // Springs where x > 1/2 only hold it as those of the whole side do.
+  // Springs where x > 1/2 only are sufficient, like those on the whole side.
   EXPECT_EQ(refusal_of(supports("z-min: 1; 1; if(x > 0.5, 1, 0)")), nothing);
   EXPECT_EQ(refusal_of(supports("", "z-min: 1") +
                        displacements("x-min: 0; 0; free")),
             nothing);
-  // Dashpots hold nothing.
+  // Dashpots do not prevent motions in statics.
   EXPECT_EQ(refusal_of(supports("", "", "z-min: 1; 1; 1")),
             begin + "move in any direction and rotate about any axis" + end);
 }
 
-// A support that is k times stiffer gives by 1/k of it: the difference to the
-// fixed bar, pulled by 1 Pa, is 1/k at its end, exactly.
+// A support that is k times stiffer yields by 1/k of it: at the end of a bar
+// pulled by 1 Pa, the difference to a fixed bar is exactly 1/k.
 TEST(ElasticSupports, StiffSpringsFix)
 {
   const std::string text = supported_box("2, 1, 1", "4, 2, 2", 1.) +
@@ -107,7 +109,7 @@ TEST(ElasticSupports, StiffSpringsFix)
     {
       CompleteRun run(text + supports(springs("x-min", k)));
       ASSERT_EQ(run.run(), "");
-      // Without springs: the mean of x / E is 1 m.
+      // The fixed bar has no springs: the mean of x / E is 1 m.
       CompleteRun clamped(text + fixed("x-min"));
       ASSERT_EQ(clamped.run(), "");
       EXPECT_NEAR(mean_displacement(run, 0) - mean_displacement(clamped, 0),
@@ -116,9 +118,9 @@ TEST(ElasticSupports, StiffSpringsFix)
     }
 }
 
-// The iterations of p-multigrid with springs from soft to stiff, 1e9 E / L, are
-// about those of the fixed body, whatever the element; each solve is the one of
-// a linear problem. Those of the other preconditioners, too.
+// With springs from soft to very stiff, 1e9 E / L, p-multigrid takes about as
+// many iterations as for the fixed body, for any element, and each solve is
+// that of a linear problem. So do the other preconditioners.
 TEST(ElasticSupports, StiffSpringsDoNotStall)
 {
   struct Case
@@ -165,8 +167,8 @@ TEST(ElasticSupports, StiffSpringsDoNotStall)
     }
 }
 
-// The same where the surfaces' normals are no axes: springs normal to three
-// sides of a block that is turned, which leave the sides free along them.
+// The same is true where springs are not along the axes: they are normal to
+// three sides of a rotated block, and leave the sides free along them.
 TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -191,12 +193,12 @@ TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
       }
 }
 
-// Modes of a bar along z with springs at its lower end: omega tan(omega L / c)
-// = k c / E, and waves across in the same way with the shear modulus E / 2
-// (nu = 0; but for the bar's rocking, which the square bar's high springs
-// leave: those are other modes). Eight cubic elements know the lowest mode to
-// 1e-9. With k L / E << 1 it is that of a rigid block, sqrt(k / (rho L)), times
-// 1 - k L / (6 E) to first order.
+// Modes of a bar along z with springs at its lower end satisfy omega tan(omega
+// L / c) = k c / E; transverse waves do the same with the shear modulus E / 2
+// (nu = 0), except for the rocking of a square bar, which stiff lateral springs
+// prevent: those are other modes. Eight cubic elements give the lowest mode to
+// 1e-9. For k L / E << 1 its frequency is that of a rigid block, sqrt(k / (rho
+// L)), times 1 - k L / (6 E) to first order.
 TEST(ElasticSupports, BarOnASpring)
 {
   for (const double k : {1e-4, 1., 30.})
@@ -215,8 +217,9 @@ TEST(ElasticSupports, BarOnASpring)
           found = &body.mode(i);
       ASSERT_NE(found, nullptr);
       EXPECT_NEAR(found->angular_frequency / lower, 1, 1e-7);
-      // The tolerance, or round-off, which stays far below its bound: with a
-      // shift far above omega^2 it is what solves leave, times their ratio.
+      // Residuals are at the tolerance or at round-off, which stays far below
+      // its bound: for a shift far above omega^2 they are what solves leave,
+      // times the ratio of the two.
       for (unsigned int i = 1; i <= 6; ++i)
         EXPECT_LE(body.mode(i).residual,
                   std::max(1e-8, 0.1 * body.mode(i).round_off))
@@ -230,14 +233,14 @@ TEST(ElasticSupports, BarOnASpring)
     }
 }
 
-// A free block on springs has no rigid body modes: the lowest three are its
-// translations, on equal springs all around, with sqrt(k_sum / m).
+// A free block on springs has no rigid body modes: the lowest three modes are
+// its translations, with sqrt(k_sum / m) for equal springs on all sides.
 TEST(ElasticSupports, BlockOnSoftSprings)
 {
   const double k = 1e-5;
   Analysis     body(box_body("1, 1, 1", "2, 2, 2", 2, 0.3, 7) +
                 supports(springs("x-min", k) + ", " + springs("x-max", k)));
-  // The block gives by some k L / E of it.
+  // The block itself yields by some k L / E of the displacement.
   for (unsigned int i = 1; i <= 3; ++i)
     EXPECT_NEAR(body.mode(i).angular_frequency / std::sqrt(2 * k), 1, 2 * k);
   for (unsigned int i = 4; i <= 6; ++i)
@@ -245,9 +248,9 @@ TEST(ElasticSupports, BlockOnSoftSprings)
   EXPECT_GT(body.mode(7).angular_frequency, 1);
 }
 
-// A free block on springs that are a million times stiffer than it is along one
-// axis, and soft along another: what is left free has frequency zero, but for
-// round-off, and that of its motions along the stiff axis does not count.
+// The springs of a free block are a million times stiffer than the block along
+// one axis, and soft along another one. The free motion has frequency zero, up
+// to round-off relative to the soft springs, not to the stiff ones.
 TEST(ElasticSupports, StiffGuideOfAFreeBlock)
 {
   for (const unsigned int degree : {1, 2})
@@ -256,7 +259,7 @@ TEST(ElasticSupports, StiffGuideOfAFreeBlock)
                           supports("z-min: 0; 0; 1e6, x-max: 1e-2; 0; 0"));
       for (unsigned int i = 1; i <= 4; ++i)
         EXPECT_LE(body.mode(i).residual, 1e-8) << degree << ' ' << i;
-      // Along y nothing holds it.
+      // Nothing holds the block along y.
       EXPECT_LE(body.mode(1).angular_frequency,
                 1e-6 * body.mode(2).angular_frequency);
     }

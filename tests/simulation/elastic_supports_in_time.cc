@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Bodies on springs and dashpots in motion: stable steps, decay, waves that
-// leave, and the energy budget.
+// Bodies on springs and dashpots in motion: stable steps, decay, absorbed
+// waves, and the energy budget.
 
 #include <gtest/gtest.h>
 
@@ -14,8 +14,8 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-// The stable step knows the springs: with those that are far stiffer than the
-// body the largest frequency grows as sqrt(k).
+// The stable step depends on the springs: if they are far stiffer than the
+// body, the largest frequency grows like sqrt(k).
 TEST(ElasticSupports, StableStep)
 {
   double omega[2];
@@ -33,10 +33,10 @@ TEST(ElasticSupports, StableStep)
   EXPECT_GT(omega[0], 1e3);
 }
 
-// Damping by stiffness is that of the cells and not of springs, which would
-// make the step 70 times shorter here. Just below the bound energy decays, with
-// a balance of round-off; 10 % above it the fastest mode, of the springs,
-// grows.
+// Damping by stiffness uses the stiffness of cells, not of springs, which would
+// make the step 70 times shorter here. Just below the bound the energy decays,
+// with a balance of round-off; 10 % above it the fastest mode, that of the
+// springs, grows.
 TEST(ElasticSupports, StableStepWithDampingByStiffness)
 {
   const std::string text =
@@ -54,7 +54,7 @@ TEST(ElasticSupports, StableStepWithDampingByStiffness)
   const double without = of_cells.system.acceleration_solver()
                            .largest_frequencies(of_cells.state)
                            .all;
-  // Both estimates are above by less than 1e-3.
+  // Both estimates of frequencies are too large by less than 1e-3.
   EXPECT_NEAR(damped / without, 1, 1e-3);
   EXPECT_GT(all, 5 * damped);
   const double bound =
@@ -78,9 +78,9 @@ TEST(ElasticSupports, StableStepWithDampingByStiffness)
     }
 }
 
-// A thousandth below the stable step the energy of the fastest mode, with two
-// velocities, is hundreds of times what was put in, and stays so: that is not
-// unstable.
+// A thousandth below the stable step the energy of the fastest mode, computed
+// from two velocities, is many times the initial energy, but does not grow
+// further: the motion is not unstable.
 TEST(ElasticSupports, CloseToTheStableStep)
 {
   CompleteRun run(
@@ -96,7 +96,7 @@ TEST(ElasticSupports, CloseToTheStableStep)
   for (const StepRecord &record : run.recorder().records)
     {
       largest = std::max(largest, record.elastic_energy);
-      // Of energies that cancel.
+      // The tolerance is the round-off of energies that cancel.
       EXPECT_NEAR(record.energy_balance, 0, 1e-12 * largest + 1e-9);
     }
   const StepRecord &first = run.recorder().records.front();
@@ -104,11 +104,11 @@ TEST(ElasticSupports, CloseToTheStableStep)
   EXPECT_GT(largest, 20 * first.kinetic_energy);
 }
 
-// A stiff block of 1 kg, u = v = 0.1 m at the start on springs of 4 N/m and
-// critical dashpots, c = 2 sqrt(k m) = 4 N s/m: u = (u_0 + (v_0 + 2 u_0) t)
-// exp(-2 t). The trapezoidal rule's error is some (omega dt)^2 / 12 = 3e-6 of
-// it; central difference has half of that, its own dt, and another sign. The
-// block gives by 1e-6.
+// A stiff block of 1 kg with u = v = 0.1 m at the start, on springs of 4 N/m
+// and critical dashpots, c = 2 sqrt(k m) = 4 N s/m: u = (u_0 + (v_0 + 2 u_0) t)
+// exp(-2 t). The relative error of the trapezoidal rule is some (omega dt)^2 /
+// 12 = 3e-6; central differences have half of that for their own dt, with the
+// other sign. The block itself yields by 1e-6.
 TEST(ElasticSupports, CriticalDamping)
 {
   for (const std::string method : {"implicit midpoint", "central difference"})
@@ -130,18 +130,19 @@ TEST(ElasticSupports, CriticalDamping)
     }
 }
 
-// A wave f(x - c t) runs along a bar of c = 1 m/s, Z = rho c = 1 N s/m^3, into
-// dashpots of R Z: what comes back has the amplitude (Z - c_d) / (Z + c_d), so
-// the energy's part is its square. The pulse is sin^4 over a length of 1 m, of
-// which cells of 1/24 m know the energy to 1e-4; half a dozen of the wave's
-// errors make 1e-3.
+// A wave f(x - c t) runs along a bar of c = 1 m/s and Z = rho c = 1 N s/m^3
+// into dashpots: the reflected amplitude is (Z - c_d) / (Z + c_d) of it, and
+// the reflected energy the square of that. The pulse is sin^4 over a length of
+// 1 m; cells of 1/24 m represent its energy to 1e-4, and half a dozen such
+// errors add up to 1e-3.
 TEST(ElasticSupports, DashpotsAbsorbWaves)
 {
   for (const std::string method : {"implicit midpoint", "central difference"})
     for (const double damping : {1., 3., 0.5})
       {
         const std::string s = "max(0, min(1, x - 0.5))";
-        // u = -int f, v = f for sigma = E u', u' = -f.
+        // The initial state of the wave is u = -int f and v = f, as sigma = E
+        // u' and u' = -f.
         CompleteRun run(
           supported_box("2, 0.1, 0.1", "48, 1, 1", 1.) +
           element_text(Element::quadratic_with_bubbles()) +
@@ -166,10 +167,10 @@ TEST(ElasticSupports, DashpotsAbsorbWaves)
       }
 }
 
-// What dashpots take is the momentum: a block of 1 kg, of 1 m/s, on dashpots of
-// c = 2 N s/m comes to rest after m v / c = 0.5 m, whatever the step; one of
-// 0.2 s takes a fifth of the velocity in its first half. Mass and force of a
-// step cancel in the sum over all, so round-off and the tolerances remain.
+// Dashpots take the whole momentum: a block of 1 kg at 1 m/s on dashpots of c =
+// 2 N s/m comes to rest after m v / c = 0.5 m, for any step; a step of 0.2 s
+// takes a fifth of the velocity in its first half. In the sum over all steps
+// mass and force cancel, so only round-off and tolerances remain.
 TEST(ElasticSupports, DashpotsTakeTheMomentum)
 {
   for (const std::string mass : {"row sum", "consistent"})
@@ -188,9 +189,9 @@ TEST(ElasticSupports, DashpotsTakeTheMomentum)
 }
 
 // A free bar of Z = rho c = 200^(1/2) N s/m^3 that flies at 1 m/s is braked at
-// its end by dashpots of r Z, which take r Z / (1 + r)^2 W until the wave is
-// back. In one step the dashpots' force of the first velocity would be more
-// than the end's momentum. Cells of 1/8 m smear the wave: 4 % here.
+// its end by dashpots of r Z, which dissipate r Z / (1 + r)^2 W until the wave
+// returns. In one step the dashpots' force at the first velocity would exceed
+// the momentum of the end. Cells of 1/8 m smear the wave: 4 % here.
 TEST(ElasticSupports, ExplicitStartWithStrongDashpots)
 {
   const double Z = std::sqrt(200.), end = 0.5;
@@ -212,9 +213,9 @@ TEST(ElasticSupports, ExplicitStartWithStrongDashpots)
       }
 }
 
-// Budgets close to round-off for all integrators that promise it, with springs
-// whose stiffness depends on time, and dashpots; and their energy is part of
-// the elastic one. Also beside supports that move.
+// The budget closes to round-off for all integrators that promise it, with
+// springs whose stiffness depends on time, and dashpots; the energy of springs
+// is part of the elastic energy. Also with moving supports.
 TEST(ElasticSupports, BudgetCloses)
 {
   for (const std::string &name :
@@ -245,9 +246,9 @@ TEST(ElasticSupports, BudgetCloses)
 }
 
 // A block of 1 kg on springs with k(t) A = 2 / (2 - t^2) N/m: u = 2 - t^2
-// solves u'' = - k u, from rest. What is fed in by the change of k is int k'
+// solves u'' = - k u, starting at rest. The change of k adds the energy int k'
 // u^2 / 2 dt = t^2 J. The acceleration is constant, so the trapezoidal rule is
-// exact; the block gives by k L / E = 2e-7 of it.
+// exact; the block itself yields by k L / E = 2e-7 of u.
 TEST(ElasticSupports, StiffnessThatChanges)
 {
   CompleteRun run(supported_box("1, 1, 1", "1, 1, 1", 1e7) +
@@ -262,7 +263,7 @@ TEST(ElasticSupports, StiffnessThatChanges)
   EXPECT_NEAR(record.kinetic_energy, 2, 4e-7);
 }
 
-// Values that become wrong end the run with the place and the time.
+// A stiffness that becomes negative ends the run, with place and time.
 TEST(ElasticSupports, StiffnessThatBecomesNegative)
 {
   CompleteRun       run(supported_box("1, 1, 1", "1, 1, 1", 10.) +
@@ -274,8 +275,8 @@ TEST(ElasticSupports, StiffnessThatBecomesNegative)
     << message;
 }
 
-// Explicit and implicit steps agree in the limit: differences fall with dt^2,
-// with corotational elasticity and large motion.
+// Explicit and implicit steps converge to the same motion: differences decrease
+// like dt^2, for corotational elasticity and large motion.
 TEST(ElasticSupports, ExplicitAndImplicitSteps)
 {
   double difference[2];

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The central difference method: its stable step, and what happens on both
-// sides of it.
+// The central difference method: its stable step, and motions just below and
+// above it.
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
@@ -20,7 +20,7 @@ using dealii::Tensor;
 
 namespace
 {
-  // Largest angular frequency of the linear body, from the whole spectrum.
+  // The largest angular frequency of the linear body, from all eigenvalues.
   double
   exact_frequency(MovingBody &body)
   {
@@ -39,7 +39,7 @@ namespace
           K(i, j) = column.local_element(i);
         unit.local_element(j) = 1;
         body.mass.apply(column, unit);
-        // Fixed unknowns have no mass to share.
+        // Fixed unknowns must not share mass with others.
         if (fixed.is_prescribed()[j])
           column = 0;
         fixed.set_zero(column);
@@ -48,7 +48,7 @@ namespace
         for (unsigned int i = 0; i < n; ++i)
           M(i, j) = column.local_element(i);
       }
-    // The largest lambda of K x = lambda M x.
+    // The largest eigenvalue lambda of K x = lambda M x.
     std::vector<dealii::Vector<double>> eigenvectors(1,
                                                      dealii::Vector<double>(n));
     K.compute_generalized_eigenvalues_symmetric(M, eigenvectors);
@@ -58,7 +58,7 @@ namespace
     return std::sqrt(largest);
   }
 
-  // Of the central difference method, with entries of its own.
+  // Steps of the central difference method, with additional entries.
   std::string
   steps(const double end, const double step, const Entries own = {})
   {
@@ -68,7 +68,7 @@ namespace
                             {section("central difference", own)});
   }
 
-  // A free bar that is bent, twisted and stretched and spins.
+  // A free bar that is bent, twisted and stretched, and spins.
   std::string
   spinning_bar(const unsigned int degree,
                const std::string &mass,
@@ -102,7 +102,7 @@ class StableStep
   : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
 {};
 
-// The estimate is above the frequency, by the tolerance at most: 1e-3.
+// The estimate is above the exact frequency by at most the tolerance, 1e-3.
 TEST_P(StableStep, LargestFrequency)
 {
   if (!on_one_rank())
@@ -130,8 +130,9 @@ INSTANTIATE_TEST_SUITE_P(
                   std::make_tuple(3u, "consistent"),
                   std::make_tuple(3u, "diagonal scaling")));
 
-// The frequency goes with 1 / sqrt(density), to the estimate's tolerance, in
-// any units: squares of frequencies from 1e-40 to 1e40 times the usual ones.
+// The frequency is proportional to 1 / sqrt(density), to the tolerance of the
+// estimate, in any units: squares of frequencies are from 1e-40 to 1e40 times
+// the usual ones.
 TEST(Explicit, FrequencyInAnyUnits)
 {
   const auto frequency = [](const double density) {
@@ -179,9 +180,9 @@ TEST(Explicit, StableStepOfLightParts)
 class Explicit : public testing::TestWithParam<unsigned int>
 {};
 
-// 100,000 steps at 0.9 of the stable step: the energy of a free body that spins
-// and vibrates stays within a percent. What it does within is of second order
-// in the step, and moves as energy spreads to the fast modes.
+// In 100,000 steps of 0.9 of the stable step, the energy of a free body that
+// spins and vibrates changes by less than a percent. Within that it changes by
+// second order in the step, and moves as energy spreads to the fast modes.
 TEST_P(Explicit, EnergyDoesNotDrift)
 {
   if (!on_one_rank())
@@ -205,13 +206,13 @@ TEST_P(Explicit, EnergyDoesNotDrift)
     largest = std::max(largest, std::abs(record.energy_balance));
   report(fmt::format("largest change of energy, P{}", degree), largest / total);
   EXPECT_LE(largest, 0.01 * total);
-  // Momenta are kept by every step.
+  // Every step conserves both momenta.
   EXPECT_LE((records.back().momentum - records[0].momentum).norm(),
             1e-9 * records[0].momentum.norm());
 }
 
-// Above the stable step the run is refused; where that is switched off it fails
-// and says so, just above as far above. Just below it goes on.
+// A step above the stable step is refused. If that is switched off, the run
+// fails as unstable, even only 5 % above. A step just below is fine.
 TEST_P(Explicit, UnstableStep)
 {
   if (!on_one_rank())
@@ -236,18 +237,18 @@ TEST_P(Explicit, UnstableStep)
   const auto  message = unstable.run({10, 0.});
   EXPECT_NE(message.find("the motion is unstable"), std::string::npos)
     << message;
-  // What was saved is from before.
+  // The saved state is from before the failure.
   EXPECT_TRUE(std::isfinite(unstable.recorder().displacement.linfty_norm()));
   EXPECT_EQ(unstable.recorder().summary.status, "failed");
-  // So the true limit is within five percent of the estimate. Of a body that
-  // vibrates with strains of 1e-4: these change the tangent.
+  // So the true limit is within five percent of the estimate. The body vibrates
+  // with strains of 1e-4, which change the tangent.
   CompleteRun just_stable(bar(0.98 * stable, true));
   EXPECT_EQ(just_stable.run({100, 0.}), "");
 }
 
-// The program's choice: 0.9 of the stable step, or less so that results are at
-// exact times; the same motion as with such a step that is given. New estimates
-// change it a little.
+// The program chooses 0.9 of the stable step, or less so that results are at
+// exact times; the motion is that with the same step given. New estimates
+// change the step a little.
 TEST_P(Explicit, OwnStep)
 {
   const unsigned int degree = GetParam();
@@ -285,8 +286,8 @@ TEST_P(Explicit, OwnStep)
   EXPECT_LE(longest, 1.1 * shortest);
 }
 
-// Steps between records are made in one sweep over the cells each. The motion
-// and the budget are those of steps one by one.
+// Each step between records is made in one sweep over the cells. The motion and
+// the budget are those of single steps.
 TEST_P(Explicit, ManySteps)
 {
   const std::string bar = box_mesh("2, 1, 1", "2, 1, 1") +
@@ -297,11 +298,12 @@ TEST_P(Explicit, ManySteps)
   CompleteRun many(bar), single(bar);
   ASSERT_EQ(many.run({70, 0.13}), "");
   ASSERT_EQ(single.run(), "");
-  // Every 70th of 1000 steps, three results at 260, 520 and 780, and the end.
+  // Recorded are every 70th of 1000 steps, three results at 260, 520 and 780,
+  // and the end.
   EXPECT_EQ(many.recorder().steps.size(), 14u + 3u + 1u);
   const double size = single.simulation.state().u.linfty_norm();
   EXPECT_GT(size, 0.01);
-  // Round-off of 1000 steps.
+  // The tolerance is the round-off of 1000 steps.
   EXPECT_LE(largest_difference(many.simulation.state().u,
                                single.simulation.state().u),
             1e-11 * size);
@@ -323,8 +325,8 @@ TEST_P(Explicit, ManySteps)
 
 INSTANTIATE_TEST_SUITE_P(Degrees, Explicit, testing::Values(1u, 2u, 3u));
 
-// The price of a consistent mass: conjugate gradients whose number does not
-// grow with the mesh [Wathen 1987].
+// With a consistent mass each step solves by conjugate gradients, whose number
+// of iterations does not grow with the mesh [Wathen 1987].
 TEST(Explicit, ConsistentMass)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -349,8 +351,8 @@ TEST(Explicit, ConsistentMass)
 
 namespace
 {
-  // All of a bar moves by t^2 / 2 along x with its support: @p gravity is what
-  // that takes with this @p damping.
+  // The whole bar moves by t^2 / 2 along x with its support: @p gravity_x is
+  // the acceleration of gravity that this takes with this @p damping.
   void
   expect_rigid_motion(const std::string &damping, const std::string &gravity_x)
   {
@@ -367,7 +369,7 @@ namespace
         ASSERT_EQ(run.run(), "");
         const Vector &u = run.recorder().displacement;
         for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-          // Round-off of 1000 steps.
+          // The tolerance is the round-off of 1000 steps.
           EXPECT_NEAR(u.local_element(i), i % 3 == 0 ? 0.5 * T * T : 0, 1e-12)
             << mass;
         if (damping.find("Mass") != std::string::npos)
@@ -378,21 +380,22 @@ namespace
   }
 } // namespace
 
-// Damping by stiffness has nothing to damp, with supports at the same moment as
-// the rest.
+// Damping by stiffness does not damp a rigid motion, as velocities of supports
+// and of other nodes are taken at the same time.
 TEST(Explicit, DampingSeesNoRigidMotion)
 {
   expect_rigid_motion(section("Damping", {{"Stiffness coefficient", 0.01}}),
                       "1");
 }
 
-// Damping by mass takes the velocity to come, of supports, too.
+// Damping by mass uses the velocity at the end of the half step, of supports,
+// too.
 TEST(Explicit, DampingByMassTakesVelocitiesToCome)
 {
   expect_rigid_motion(section("Damping", {{"Mass coefficient", 2}}), "1 + 2*t");
 }
 
-// There is no stable step where nothing is free.
+// There is no stable step where all unknowns are prescribed.
 TEST(CentralDifference, NothingIsFree)
 {
   EXPECT_NE(refusal([] {
@@ -407,7 +410,8 @@ TEST(CentralDifference, NothingIsFree)
             std::string::npos);
 }
 
-// The step that fails is named, however long ago the last row was.
+// The message names the step that fails, however long ago the last row was
+// written.
 TEST(CentralDifference, NamesTheStepThatFails)
 {
   CompleteRun       run(box_mesh("1, 1, 1", "1, 1, 1") +

@@ -17,7 +17,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // What a run warns of before its first step.
+  // The warnings of a run before its first step.
   std::vector<std::string>
   warnings_of(const std::string &text)
   {
@@ -56,15 +56,15 @@ TEST(ForcesWithoutEffect, AreNamed)
         "Supports/Elastic on boundary 'x-min'" + reactions_only,
         "Supports/Elastic normal on boundary 'x-min'" + reactions_only};
       EXPECT_EQ(warnings_of(text + statics()), expected);
-      // In dynamics dashpots act.
+      // In dynamics dashpots have an effect.
       expected.erase(expected.begin());
       EXPECT_EQ(warnings_of(text + time_integration("Newmark", 1, 0.1)),
                 expected);
     }
 }
 
-// One component is free, or one node: the whole force is no matter of
-// reactions.
+// There is no warning if one component or one node is free, as then the force
+// does not only change reactions.
 TEST(ForcesWithoutEffect, WhatActsInPartIsNotNamed)
 {
   EXPECT_EQ(warnings_of(box_mesh("2, 1, 1", "2, 1, 1") + element_text(2) +
@@ -74,7 +74,8 @@ TEST(ForcesWithoutEffect, WhatActsInPartIsNotNamed)
             std::vector<std::string>());
 }
 
-// All nodes of the loaded boundary belong to others, which hold them.
+// All nodes of the loaded boundary also belong to other boundaries, which hold
+// them.
 TEST(ForcesWithoutEffect, LoadOnNodesThatOthersHold)
 {
   const std::string text =
@@ -87,8 +88,8 @@ TEST(ForcesWithoutEffect, LoadOnNodesThatOthersHold)
             expected);
 }
 
-// Where the load acts nothing is held but what it pushes at the start and at
-// the end of the run.
+// The boundary is free only in the component in which the load acts during a
+// pulse, not at the start or end of the run; there is no warning.
 TEST(ForcesWithoutEffect, NotThoseOfAPulse)
 {
   const auto found = warnings_of(
@@ -99,8 +100,8 @@ TEST(ForcesWithoutEffect, NotThoseOfAPulse)
   EXPECT_TRUE(found.empty()) << found.front();
 }
 
-// Damping has no part in statics, but for a warning: dashpots that cannot be
-// are not asked.
+// In statics damping only causes a warning: dashpots with wrong values are not
+// evaluated.
 TEST(ForcesWithoutEffect, DampingInStatics)
 {
   const std::string text =

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A free body that spins and vibrates: what the laws with an energy conserve,
-// and what one rotation per cell does not.
+// A free body that spins and vibrates: laws with an energy conserve energy and
+// momenta, while one rotation per cell does not.
 
 #include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/generalized_alpha.h>
@@ -20,14 +20,16 @@ using dealii::Tensor;
 
 namespace
 {
-  // Largest changes from the start to any step, of the momenta relative to the
-  // momenta at the start, of the energy relative to the elastic one then.
+  // The largest changes from the start to any step: of the momenta, relative to
+  // the momenta at the start, and of the energy, relative to the elastic energy
+  // at the start.
   struct Drift
   {
     double momentum = 0, angular_momentum = 0, energy = 0;
   };
 
-  // A bar of 2 x 1 x 1 that is stretched and bent and turns by some 2 radians.
+  // Simulates a bar of 2 x 1 x 1 that is stretched, bent and rotates by some 2
+  // radians.
   Drift
   fly(const unsigned int degree,
       const NamedLaw    &law,
@@ -82,9 +84,9 @@ namespace
 class FreeMotion : public testing::TestWithParam<unsigned int>
 {};
 
-// The spectral radius 1 makes the midpoint rule. It conserves both momenta
-// exactly when forces have no resultant and no moment, so to the solvers'
-// tolerance, and the energy to its order.
+// With the spectral radius 1 this is the midpoint rule. It conserves both
+// momenta if forces have no resultant and no moment, to the tolerance of the
+// solvers, and the energy to its order.
 TEST_P(FreeMotion, Conservation)
 {
   if (!on_one_rank())
@@ -99,7 +101,7 @@ TEST_P(FreeMotion, Conservation)
           cell_centre = law;
           continue;
         }
-      // The faster the stiffening, the shorter the steps that show the order.
+      // The faster a law stiffens, the shorter must steps be to show the order.
       const unsigned int n = law.name.starts_with("corotational") ? 100 : 800;
       const Drift        coarse = fly(degree, law, n / 2);
       const Drift        fine   = fly(degree, law, n);

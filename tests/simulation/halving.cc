@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Steps that fail and are made in halves.
+// Steps that fail and are repeated in halves.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A run that has been made.
+  // A run that has finished.
   struct FinishedRun : public CompleteRun
   {
     explicit FinishedRun(const std::string &text)
@@ -41,8 +41,8 @@ namespace
   }
 } // namespace
 
-// A load step that fails at first is made in parts, and ends where small steps
-// end; what is recorded are the steps that were asked for.
+// A load step that fails at first is made in parts, and ends in the same state
+// as small steps; records are those of the given steps.
 TEST(Halving, Statics)
 {
   const FinishedRun small(bar(statics(32, 0), 50, "5000"));
@@ -65,7 +65,7 @@ TEST(Halving, Statics)
   EXPECT_GE(parts, 3u);
   for (const StepRecord &record : small.recorder().steps)
     EXPECT_EQ(record.parts, 1u);
-  // The path does not matter in statics.
+  // In statics the result does not depend on the path.
   const StepRecord &last = small.recorder().steps.back();
   EXPECT_GE(last.max_displacement, 0.3);
   EXPECT_LE(largest_difference(halved.simulation.state().u,
@@ -78,8 +78,8 @@ TEST(Halving, Statics)
   EXPECT_EQ(halved.recorder().summary.steps, 2u);
 }
 
-// One time step made in two parts is two steps of half the size, accelerations
-// and works included.
+// A time step made in two parts equals two steps of half the size,
+// accelerations and works included.
 TEST(Halving, Dynamics)
 {
   const FinishedRun halved(bar(dynamics(0.2), 2, "8", 1e-9));
@@ -104,9 +104,9 @@ TEST(Halving, Dynamics)
               1e-12 * last.external_work);
 }
 
-// Loads that there are up to t = 0.55, and again at the end of four load steps:
-// two are shown, then parts of the third as far as halves go, t = 0.5 + 0.25
-// (1/8).
+// The load is finite up to t = 0.55, and again at the last of four load steps:
+// two steps are recorded, then parts of the third as far as halving allows, t =
+// 0.5 + 0.25 (1/8).
 TEST(Halving, GivesUp)
 {
   const FinishedRun run(
@@ -129,7 +129,7 @@ TEST(Halving, GivesUp)
   EXPECT_EQ(run.recorder().summary.status, "failed");
   EXPECT_EQ(run.recorder().summary.message, run.message);
   EXPECT_EQ(run.recorder().summary.end_time, 0.53125);
-  // Good: the equilibrium of that load, a factor of 0.53125.
+  // The saved state is the equilibrium for that load, of factor 0.53125.
   const FinishedRun good(
     bar(statics(1, 0), 50, fmt::format("{}", 100 * 0.53125)));
   EXPECT_LE(largest_difference(run.recorder().displacement,
@@ -137,8 +137,8 @@ TEST(Halving, GivesUp)
             1e-10 * good.recorder().displacement.linfty_norm());
 }
 
-// Rows are rarer than steps: the last good step, which had no row, gets one
-// before the run ends.
+// Rows are written less often than steps: the last good step, which had no row,
+// gets one before the run ends.
 TEST(Halving, FailsBetweenRows)
 {
   CompleteRun run(
@@ -163,8 +163,8 @@ TEST(Halving, FailsBetweenRows)
             1e-10 * good.recorder().displacement.linfty_norm());
 }
 
-// Nothing of the third step can be made: the second, which has been shown, is
-// what is saved.
+// No part of the third step succeeds: the second, which has been recorded, is
+// saved.
 TEST(Halving, FailsAtOnceWithoutHalvings)
 {
   const FinishedRun run(

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// All integrators of the list on bodies, and whether they are what they say of
-// themselves: orders in time, what they keep and what they lose, budgets that
-// close, runs that know nothing of earlier ones.
+// Checks for all registered integrators, on bodies, that their stated
+// properties hold: order in time, conserved and lost energy, budgets that
+// close, independence of earlier runs.
 
 #include "../integrators.h"
 
@@ -41,7 +41,7 @@ namespace
     return run.simulation.state();
   }
 
-  // Of displacement or velocity, whichever is less accurate.
+  // The error of displacement or velocity, whichever is larger.
   double
   error_of(const State &state, const State &reference)
   {
@@ -55,9 +55,9 @@ namespace
 class Integrators : public testing::TestWithParam<std::string>
 {};
 
-// Order in time of a body that turns far, by the difference from a run with a
-// sixteenth of the step: for order q the differences of steps h and h / 2 have
-// the ratio (1 - 16^-q) / (2^-q - 16^-q), known exactly.
+// The order in time for a body that rotates far, from the difference to a run
+// with a sixteenth of the step: for order q the differences of steps h and h /
+// 2 have the exact ratio (1 - 16^-q) / (2^-q - 16^-q).
 TEST_P(Integrators, OrderOnCorotationalBody)
 {
   if (!on_one_rank())
@@ -72,24 +72,24 @@ TEST_P(Integrators, OrderOnCorotationalBody)
                                    finest)};
   const double p       = std::pow(2., -expected);
   const double p4      = std::pow(16., -expected);
-  // The ratio of an exact order is that of the differences.
+  // If the order is exact, the ratio of errors is that of the formula.
   const double order =
     expected + std::log2(error[0] / error[1]) - std::log2((1 - p4) / (p - p4));
   report("order, " + type, order);
-  // The body has turned.
+  // The body must have rotated.
   EXPECT_GT(finest.u.linfty_norm(), 1.);
   EXPECT_NEAR(order, expected, 0.1);
 }
 
-// A body on which everything acts at once, linear elasticity: gravity, a
-// support that moves, damping of both kinds, traction. The budget closes to
-// round-off where the integrator says so (velocities of the support must fit
-// its displacements), and to the order of the method with others.
+// A body of linear elasticity with everything at once: gravity, a moving
+// support, both kinds of damping, traction. The budget closes to round-off if
+// the integrator says so (velocities of the support must fit its
+// displacements), and with others to the order of the method.
 TEST_P(Integrators, BudgetCloses)
 {
   const std::string type       = GetParam();
   const auto        integrator = make_integrator(type);
-  // Two ranks sum as one does: exact budgets are enough to see that.
+  // On two ranks only sums differ, which exact budgets suffice to check.
   if (!on_one_rank() && !integrator->closes_budget())
     GTEST_SKIP();
   const auto balance = [&](const double dt) {
@@ -118,7 +118,7 @@ TEST_P(Integrators, BudgetCloses)
     EXPECT_GT(run.recorder().records.back().elastic_energy, 0.);
     return left / largest;
   };
-  // Stable for explicit methods, too.
+  // The step is stable for explicit methods, too.
   const double dt   = integrator->stability() != nullptr ? 2e-3 : 1e-2;
   const double left = balance(dt);
   report("energy balance, " + type, left);
@@ -132,13 +132,13 @@ TEST_P(Integrators, BudgetCloses)
     }
 }
 
-// A bar without mass to speak of creeps under a load that is there at once:
-// with damping by stiffness alpha and nu = 0, u = u_s (1 - exp(-t / alpha)).
-// The density is so low that the acceleration at the start lasts for 1e-10 of a
-// step; a method that made a displacement of it would be wrong by many orders.
-// The velocity jumps within the first step, of which methods that mix its start
-// and end make half to twice of what it is; that dies out as the creep does,
-// and leaves an error of first order.
+// A bar with nearly no mass creeps under a sudden load: with damping by
+// stiffness alpha and nu = 0, u = u_s (1 - exp(-t / alpha)). The density is so
+// low that the acceleration at the start lasts for 1e-10 of a step; a method
+// that derived a displacement from it would be wrong by many orders of
+// magnitude. The velocity jumps within the first step, and methods that mix its
+// values at start and end get half to twice the right value; this error decays
+// as the creep does, and leaves an error of first order.
 TEST_P(Integrators, LoadAtOnceOnDampedBar)
 {
   const std::string type = GetParam();
@@ -197,8 +197,9 @@ namespace
 
 namespace
 {
-  // 10,000 steps of @p dt: the largest change of the energy, relative to the
-  // elastic one. The work of what is not there is zero.
+  // The largest change of energy in 10,000 steps of @p dt, relative to the
+  // elastic energy. Also checks that the external work is zero, as there are no
+  // loads.
   double
   change_of_energy(const std::string &type,
                    const double       dt,
@@ -222,7 +223,7 @@ namespace
 class Conservation : public testing::TestWithParam<std::string>
 {};
 
-// A linear body keeps its energy over 10,000 steps of round-off.
+// A linear body keeps its energy over 10,000 steps, to their round-off.
 TEST_P(Conservation, LinearBody)
 {
   if (!on_one_rank())
@@ -240,7 +241,8 @@ INSTANTIATE_TEST_SUITE_P(
   })),
   [](const auto &info) { return letters_and_digits(info.param); });
 
-// The same with a spectral radius of 1, of a method that dissipates by default.
+// The same holds with a spectral radius of 1, for a method that dissipates by
+// default.
 TEST(GeneralizedAlphaConservation, LinearBody)
 {
   if (!on_one_rank())
@@ -255,11 +257,10 @@ TEST(GeneralizedAlphaConservation, LinearBody)
 class Reset : public testing::TestWithParam<std::string>
 {};
 
-// Two runs with the same parameters object, whose integrator and solvers so are
-// the same: bodies with equally many nodes, but other shapes, the first one on
-// all ranks and the second one on each by itself, starting after the end of the
-// first. It must be that of an object that knows no earlier run, to the last
-// bit.
+// Two runs use the same parameters object, so the same integrator and solvers:
+// their bodies have equally many nodes, but other shapes; the first run is on
+// all ranks, the second one on each rank alone, starting after the end time of
+// the first. The second run must equal one with a new object, to the last bit.
 TEST_P(Reset, RunsDoNotKnowEarlierOnes)
 {
   const auto text = [&](const std::string &cells, const double start) {
@@ -271,7 +272,7 @@ TEST_P(Reset, RunsDoNotKnowEarlierOnes)
                             0.001,
                             {{"Start time", start}});
   };
-  // Of the nodes that this rank owns.
+  // The displacement of the nodes that this rank owns, at the end of a run.
   const auto final_displacement = [](Parameters    &parameters,
                                      const MPI_Comm comm) {
     Log        log(comm, true);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Steps that are left between their parts, or given up while systems are
-// solved, and gone on with later.
+// Steps that are interrupted between their parts, or while systems are solved,
+// and continued later.
 
 #include <gtest/gtest.h>
 
@@ -52,8 +52,8 @@ namespace
   }
 } // namespace
 
-// Left after each of its parts, saved, and gone on with by another process, a
-// step is the same to the last bit.
+// A step that is interrupted after each of its parts, saved, and continued by
+// another process is the same to the last bit.
 TEST(InterruptedSteps, BetweenParts)
 {
   for (const std::string &text :
@@ -97,8 +97,8 @@ TEST(InterruptedSteps, BetweenParts)
     }
 }
 
-// What is given up in the middle of a solve leaves the state before, from which
-// the run goes on, here or by another process.
+// A step that is given up in the middle of a solve leaves the state before it,
+// from which the run goes on, here or in another process.
 TEST(InterruptedSteps, WithinSolves)
 {
   for (const std::string &text :
@@ -115,7 +115,7 @@ TEST(InterruptedSteps, WithinSolves)
         {
           const double time = run.simulation.time();
           const Vector u    = run.simulation.state().u;
-          // Every other time, at another question each time.
+          // Every second step is given up, each time at another question.
           const unsigned int when = n_steps % 2 == 0 ? n_steps % 7 + 1 : 0;
           ++n_steps;
           bool         is_given_up = false;
@@ -149,8 +149,8 @@ TEST(InterruptedSteps, WithinSolves)
           other.simulation.resume(other.observers, {}, archive);
           while (!other.simulation.is_done())
             other.simulation.step();
-          // To the tolerances of solvers and, in adaptive runs, of steps that
-          // have been chosen anew.
+          // The tolerance is that of solvers and, in adaptive runs, of step
+          // sizes that were chosen again.
           EXPECT_LE(largest_difference(other.simulation.state().u,
                                        whole.simulation.state().u),
                     1e-7 * whole.simulation.state().u.linfty_norm());
@@ -163,8 +163,9 @@ TEST(InterruptedSteps, WithinSolves)
     }
 }
 
-// A result is due within a step that a run with other steps has left behind a
-// part: the first of these gives it, also if it was given up once.
+// A result is due in a step that was interrupted behind a part, and the run
+// goes on with other steps: the first of them gives the result, also if it was
+// given up once.
 TEST(InterruptedSteps, LeftForOtherSteps)
 {
   const auto bar = [](const double step) {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Corotational elasticity against an exact solution with rotations of 90
-// degrees over the body: orders of convergence for every place where rotations
-// are taken.
+// Corotational elasticity compared with an exact solution with rotations of 90
+// degrees over the body: orders of convergence for every placement of
+// rotations.
 
 #include <corotet/time_integration/load_stepping.h>
 
@@ -35,7 +35,7 @@ namespace
   //
   //   b = -div P = -Q (R e_1 (d sigma_1 / dX - sigma_2) + e_3 d sigma_3 / dZ).
   //
-  // Strains are up to 20 %, so that nothing hides behind their smallness.
+  // Strains are up to 20 %, so errors do not vanish because strains are small.
   class Bending : public dealii::Function<3>
   {
   public:
@@ -64,7 +64,7 @@ namespace
       return F[component];
     }
 
-    // Expressions in x, y, z.
+    // The exact displacement, as expressions in x, y, z.
     std::string
     displacement() const
     {
@@ -82,7 +82,8 @@ namespace
                     false);
     }
 
-    // Of the face at the end of axis @p direction, with @p sign -1 or 1.
+    // The traction on the face at the end of axis @p direction, at its start
+    // for @p sign = -1 and its end for 1.
     std::string
     traction(const unsigned int direction, const int sign) const
     {
@@ -158,8 +159,8 @@ namespace
     double L2, H1;
   };
 
-  // With n x 4n x n cuboids, whose inner vertices are moved. Two sides follow
-  // the exact solution, the others have its traction.
+  // The errors on a mesh of n x 4n x n cuboids, whose inner vertices are moved.
+  // Two sides have the exact displacement, the others the exact traction.
   Errors
   bending_errors(const unsigned int degree,
                  const std::string &rotation,
@@ -243,8 +244,8 @@ TEST_P(LargeRotations, OrdersOfConvergence)
       report("L2 order, " + what, L2);
       report("H1 order, " + what, H1);
     }
-  // What is left out by one rotation per cell is O(h) times the strain, here 20
-  // %, whatever the degree; it averages to O(h^2) in a cell.
+  // One rotation per cell leaves out an error of O(h) times the strain, here 20
+  // %, for any degree; it averages to O(h^2) in a cell.
   const bool by_cell = rotation != "quadrature points";
   EXPECT_NEAR(L2, by_cell ? 2 : degree + 1, 0.15);
   EXPECT_NEAR(H1, by_cell ? 1 : degree, 0.15);

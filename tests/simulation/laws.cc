@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Every law of the registry in whole problems: orders of convergence to exact
-// solutions, what the preconditioner takes, and what happens at the border of
-// what a law can do.
+// Every registered law in whole problems: orders of convergence to exact
+// solutions, iterations of the preconditioner, and failures where a law has no
+// stress.
 
 #include <corotet/laws/neo_hookean.h>
 #include <corotet/operators/error_norms.h>
@@ -22,8 +22,8 @@ using dealii::Tensor;
 
 namespace
 {
-  // Turned by up to 50 degrees, strains of up to 20 percent. Two sides are
-  // prescribed, the others have tractions.
+  // A displacement that rotates by up to 50 degrees, with strains of up to 20
+  // percent. Two sides are prescribed, the others have tractions.
   const std::string exact_displacement =
     "0.2*sin(2*x+y)*y - 0.4*y; 0.6*x*x + 0.1*cos(3*y)*x + 0.5*x; "
     "0.15*sin(2*z)*(1+x) - 0.2*x*y";
@@ -76,7 +76,7 @@ namespace
            displacements("x-max: " + displacement + "; 0; 0") + integration;
   }
 
-  // A quadratic displacement is exact in quadratic elements.
+  // Checks that quadratic elements give a quadratic displacement exactly.
   void
   expect_exact(const SerialMesh &mesh, const std::string &prescribed)
   {
@@ -96,15 +96,14 @@ namespace
         const Tensor<1, 3> u =
           exact.displacement(body.discretization.node_position(n), 1.);
         for (unsigned int a = 0; a < 3; ++a)
-          // Of the linear solver's tolerance.
+          // The error that the tolerance of the linear solver leaves.
           EXPECT_NEAR(body.state.u.local_element(3 * n + a), u[a], 1e-8)
             << prescribed;
       }
   }
 } // namespace
 
-// Sides without names have the tractions of exact solutions like those with
-// names.
+// Tractions of exact solutions also act on sides without names.
 TEST(ExactSolutions, TractionsOnSidesWithoutNames)
 {
   SerialMesh mesh = box("0.5, 0.5, 0.5", "2, 2, 2", 0.1);
@@ -115,8 +114,8 @@ TEST(ExactSolutions, TractionsOnSidesWithoutNames)
   expect_exact(mesh, "x-min");
 }
 
-// The boundary that is meant by its name is the one whose displacement is
-// prescribed, whatever numbers others are called by.
+// The boundary with the given name is prescribed, even if the name is the
+// number of another boundary.
 TEST(ExactSolutions, NumbersAsNames)
 {
   SerialMesh mesh = box("0.5, 0.5, 0.5", "2, 2, 2", 0.1);
@@ -126,8 +125,8 @@ TEST(ExactSolutions, NumbersAsNames)
     expect_exact(mesh, prescribed);
 }
 
-// One rotation per cell leaves out O(h) times the strain; see
-// large_rotations.cc for its orders.
+// One rotation per cell leaves out O(h) times the strain; for its orders see
+// large_rotations.cc.
 TEST_P(LawsInProblems, OrdersOfConvergence)
 {
   const auto &[degree, number] = GetParam();
@@ -151,16 +150,16 @@ INSTANTIATE_TEST_SUITE_P(
   testing::Combine(testing::Values(1u, 2u, 3u),
                    testing::Range<unsigned int>(0, all_laws().size())));
 
-// The preconditioner knows linear elasticity rotated with the cells, whatever
-// the law: with strains of some tens of percent it takes a few times as many
+// The preconditioner uses linear elasticity rotated with the cells, for any
+// law: with strains of some tens of percent it takes a few times as many
 // iterations.
 TEST(Laws, Preconditioner)
 {
   double of_linear = 0;
   for (const NamedLaw &law : all_laws())
     {
-      // One rotation per cell is measured where bodies bend: here its solution
-      // is another one.
+      // Laws with one rotation per cell have another solution here;
+      // large_rotations.cc checks them.
       if (law.law->has_cell_rotation())
         continue;
       MovingBody   body(box("0.5, 0.5, 0.5", "4, 4, 4", 0.1),
@@ -180,8 +179,9 @@ TEST(Laws, Preconditioner)
     }
 }
 
-// A plate moves so far in one step that the first guess has cells inside out:
-// the step is made in parts, and the body ends where small steps end.
+// A plate moves so far in one step that the first guess has inverted cells: the
+// step is made in parts, and the body ends in the same state as with small
+// steps.
 TEST(NeoHookean, FailingStepIsHalved)
 {
   CompleteRun one(squeezed("3", statics(1)));
@@ -192,14 +192,14 @@ TEST(NeoHookean, FailingStepIsHalved)
                    &slow = many.recorder().steps.back();
   EXPECT_GT(far.parts, 1u);
   EXPECT_EQ(slow.parts, 1u);
-  // To Newton's tolerance, 1e-8.
+  // The tolerance follows from that of Newton's method, 1e-8.
   EXPECT_NEAR(far.elastic_energy,
               slow.elastic_energy,
               1e-7 * slow.elastic_energy);
   EXPECT_GT(far.min_det_F, 0.);
 }
 
-// What the law has no state for fails, and says why.
+// A body pressed flat, for which the law has no stress, fails with the reason.
 TEST(NeoHookean, FlatBodyFails)
 {
   CompleteRun       static_run(squeezed("-1", statics(1, 0)));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Bodies that are held at lines and points: their names are selections.
+// Bodies that are held at lines and points, which selections name.
 
 #include <corotet/discretization/rigid_motions.h>
 #include <corotet/time_integration/load_stepping.h>
@@ -66,9 +66,9 @@ namespace
   }
 } // namespace
 
-// Three points that hold a bar without constraint, 3 + 2 + 1 components: pulled
-// at its ends it has the displacement x sigma / E, - y nu sigma / E, - z nu
-// sigma / E up to round-off, as no support has a force.
+// Three points hold a bar without constraining it, with 3 + 2 + 1 components:
+// pulled at its ends it has the displacement x sigma / E, - y nu sigma / E, - z
+// nu sigma / E up to round-off, as no support has a force.
 TEST(LineSupports, ThreePoints)
 {
   const double stress = 0.01, nu = 0.3;
@@ -95,13 +95,14 @@ TEST(LineSupports, ThreePoints)
 }
 
 // Modes of a square plate, ten times as wide as thick, whose sides are held
-// vertically at half their height only, so that they are free to turn, and do
-// not move along themselves: 2, 5, 5 times pi^2 / a^2 sqrt(D / rho t) / (2 pi)
-// by Kirchhoff's theory, of which shear takes 3 and 8 %, as Mindlin's says. The
-// exact solution of the solid (Srinivas, J. Sound Vib. 12, 1970, 187-199) has w
-// = 0 on the whole sides and frequencies 0.2 % above Mindlin's; lines are
-// softer, and the cells stiffer. Then comes a mode in the plane, half a wave of
-// shear, sqrt(G / rho) / (2 a), which the line does not touch.
+// vertically at half their height only, so that they are free to rotate, and
+// cannot move along themselves. Kirchhoff's theory gives 2, 5, 5 times pi^2 /
+// a^2 sqrt(D / rho t) / (2 pi), which shear reduces by 3 and 8 % in Mindlin's
+// theory. The exact solution of the solid (Srinivas, J. Sound Vib. 12, 1970,
+// 187-199) has w = 0 on the whole sides and frequencies 0.2 % above Mindlin's;
+// supports on lines are softer, and the cells stiffer. Then follows a mode in
+// the plane, half a wave of shear, sqrt(G / rho) / (2 a), which the line does
+// not affect.
 TEST(LineSupports, PlateOnItsMidLines)
 {
   const double   t = 0.1, nu = 0.3;
@@ -124,8 +125,8 @@ TEST(LineSupports, PlateOnItsMidLines)
     }
 }
 
-// The same deflection on all ranks together as on each alone, with a line that
-// crosses ranks: up to the tolerance of the solver.
+// The deflection is the same on all ranks together as on each alone, with a
+// line that crosses ranks: up to the tolerance of the solver.
 TEST(LineSupports, RanksAgree)
 {
   const std::string text =
@@ -149,7 +150,7 @@ TEST(LineSupports, RanksAgree)
   EXPECT_NEAR(together.second / alone.second, 1, 1e-9);
 }
 
-// What lines and points leave free is found as for sides.
+// Motions that lines and points leave free are found as for sides.
 TEST(LineSupports, RigidMotions)
 {
   const auto found = [](const std::string &displacement) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Loads and supports that follow tables move a body as the same functions do
-// that are given as formulas.
+// Loads and supports given by tables move a body in the same way as the same
+// functions given by formulas.
 
 #include <corotet/simulation/simulation.h>
 
@@ -17,7 +17,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // What a run ends with.
+  // Keeps the final state of a run.
   class End : public Observer
   {
   public:
@@ -59,11 +59,11 @@ namespace
   }
 } // namespace
 
-// A beam shaken at its foot by 0.2 (t + 0.5)^2: a cubic table reproduces this
-// monotone quadratic up to round-off of 1e-17, so accelerations, which are
-// taken by differences of step h = 5e-4, up to e = 64 / 12 * 1e-17 / h^2 =
-// 2e-10. That makes at most e t of velocity and e t^2 / 2 of displacement until
-// t = 0.2, and e m of the reaction, with the body's 40 kg.
+// A beam whose foot is moved by 0.2 (t + 0.5)^2: a cubic table reproduces this
+// monotone quadratic up to a round-off of 1e-17, so accelerations, computed
+// from differences of step h = 5e-4, up to e = 64 / 12 * 1e-17 / h^2 = 2e-10.
+// Until t = 0.2 that causes errors of at most e t in velocity and e t^2 / 2 in
+// displacement, and e m in the reaction, with the body's 40 kg.
 TEST(LoadsInTime, MovingSupportByTableOrFormula)
 {
   const TemporaryFolder folder;
@@ -81,7 +81,7 @@ TEST(LoadsInTime, MovingSupportByTableOrFormula)
         section("Tables", {{"Cubic", "foot: foot.csv"}}) + carried("foot(t)"));
   const End    by_formula = run("", carried("(t + 0.5)^2"));
   const double error      = 2e-10;
-  // Far from rigid motion: the tip lags behind.
+  // The motion is far from rigid: the tip lags behind.
   const double rigid_energy = 0.5 * 40 * 0.28 * 0.28;
   report("kinetic energy over that of rigid motion",
          by_formula.record.kinetic_energy / rigid_energy);
@@ -97,8 +97,8 @@ TEST(LoadsInTime, MovingSupportByTableOrFormula)
               error * 40);
 }
 
-// A load by straight lines between rows is a triangle: values agree to
-// round-off, the runs to the tolerance of Newton's method.
+// A load with straight lines between rows is a triangle function: values agree
+// to round-off, the runs to the tolerance of Newton's method.
 TEST(LoadsInTime, LoadsByTableOrFormula)
 {
   const TemporaryFolder folder;
@@ -130,9 +130,9 @@ TEST(LoadsInTime, LoadsByTableOrFormula)
     }
 }
 
-// Gravity of 1 m/s^2 from 0.1 to 0.3 s makes a free body 0.2 m/s fast: the step
-// that ends at 0.1 s sees it, and that which ends at 0.3 s does not, whatever
-// start and end time make of the times of steps.
+// Gravity of 1 m/s^2 from 0.1 to 0.3 s gives a free body 0.2 m/s: the step that
+// ends at 0.1 s uses it, and the one that ends at 0.3 s does not, whatever the
+// round-off in times of steps that start and end time cause.
 TEST(LoadsInTime, JumpsAreMetAtAnyEndTime)
 {
   const std::string body = box_mesh("1, 0.5, 0.5", "1, 1, 1") +
@@ -166,8 +166,8 @@ TEST(LoadsInTime, JumpsAreMetAtAnyEndTime)
           const double mass = simulation.body().mass.total();
           const auto  &record =
             static_cast<const End &>(*observers.front()).record;
-          // What Newton's tolerance of 1e-10 leaves in each of twenty steps,
-          // and round-off.
+          // The error is what Newton's tolerance of 1e-10 leaves in each of
+          // twenty steps, and round-off.
           EXPECT_NEAR(record.momentum[0] / mass, 0.2, 1e-10)
             << type << ' ' << start << ' ' << end << ' ' << load;
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Modes are all those that there are, and what is said of them is true.
+// No mode is missing, and the reported properties of modes are right.
 
 #include <deal.II/lac/lapack_full_matrix.h>
 
@@ -18,8 +18,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // All eigenvalues of a body, from its matrices in full: column by column,
-  // with unit vectors. Rows and columns of prescribed unknowns are left out.
+  // All eigenvalues of a body, from full matrices: built column by column with
+  // unit vectors, without rows and columns of prescribed unknowns.
   std::vector<double>
   all_eigenvalues(const SerialMesh &mesh, const std::string &text)
   {
@@ -93,9 +93,9 @@ namespace
 
 // The body is a cube: each eigenvalue occurs one, two or three times, that of
 // the rigid body modes six times, and none must be missing. Dense linear
-// algebra, a backward stable method, has them up to round-off of the largest
-// one. As many are asked for as are allowed, and some that end within a group
-// of equal ones.
+// algebra, a backward stable method, gives them up to the round-off of the
+// largest one. As many modes are asked for as are allowed, and some numbers
+// that end within a group of equal eigenvalues.
 TEST(ModalAnalysis, FindsAllEigenvalues)
 {
   expect_all_found("2, 2, 2", 1, "consistent", "", 20);
@@ -107,10 +107,10 @@ TEST(ModalAnalysis, FindsAllEigenvalues)
   expect_all_found("1, 1, 1", 3, "diagonal scaling", "z-max", 11);
 }
 
-// A free body has six modes without strain, which carry all of its mass. The
-// frequency of such a mode is that of the strain which errors leave in it: they
-// are 1e-11, the tolerance of the linear solver. The others move no mass in
-// total, as they are orthogonal to these.
+// A free body has six modes without strain, which carry all of its mass. Their
+// frequencies are those of the strain that errors of 1e-11, the tolerance of
+// the linear solver, leave in them. The other modes move no mass in total, as
+// they are orthogonal to these.
 TEST(ModalAnalysis, FreeBody)
 {
   for (const unsigned int degree : {1u, 2u, 3u})
@@ -137,8 +137,8 @@ TEST(ModalAnalysis, FreeBody)
     }
 }
 
-// What is said of a mode is true of the vector that comes with it: its
-// residual, evaluated here, its amplitude, and that it keeps to the support.
+// The reported properties of a mode fit its vector: its residual, evaluated
+// here, its amplitude, and zero displacement at the support.
 TEST(ModalAnalysis, ShapesSolveTheEquation)
 {
   const std::string text =
@@ -158,7 +158,7 @@ TEST(ModalAnalysis, ShapesSolveTheEquation)
       body.motion.set_zero(f);
       body.motion.set_zero(g);
       f.add(-mode.eigenvalue, g);
-      // Default tolerance.
+      // The default tolerance is 1e-8.
       EXPECT_LT(norm(f), 1e-8 * mode.eigenvalue * norm(g));
       for (const unsigned int k : body.motion.unknowns())
         EXPECT_EQ(phi.local_element(k), 0.);
@@ -175,8 +175,8 @@ TEST(ModalAnalysis, ShapesSolveTheEquation)
     }
 }
 
-// A cube has groups of equal frequencies, here of the seventh mode and some
-// that follow. That one of them is cut is said.
+// A cube has groups of equal frequencies, here the seventh mode and some that
+// follow. A remark tells if such a group is cut.
 TEST(ModalAnalysis, SaysThatAGroupIsCut)
 {
   const auto text = [](const unsigned int n_modes) {
@@ -187,7 +187,7 @@ TEST(ModalAnalysis, SaysThatAGroupIsCut)
   while (all.mode(n + 1).frequency < (1 + 1e-8) * all.mode(n).frequency)
     ++n;
   EXPECT_GT(n, 7u);
-  // Other frequencies are far.
+  // Other frequencies must be clearly different.
   EXPECT_GT(all.mode(n + 1).frequency, 1.01 * all.mode(n).frequency);
   for (const unsigned int n_modes : {4u, 6u, 7u, n})
     {
@@ -216,9 +216,9 @@ TEST(ModalAnalysis, SaysThatAGroupIsCut)
     }
 }
 
-// Frequencies are those of the body, whatever the shift: exact to the square of
-// the tolerance, or round-off. One that is far too large is refused: with it
-// all vectors would pass for modes.
+// Frequencies do not depend on the shift, up to the square of the tolerance, or
+// round-off. A shift that is far too large is refused, as with it all vectors
+// would pass for modes.
 TEST(ModalAnalysis, Shift)
 {
   const auto text = [](const double shift) {
@@ -247,17 +247,17 @@ TEST(ModalAnalysis, Shift)
   EXPECT_EQ(message.find("Modes/Shift: found "), 0u) << message;
   EXPECT_NE(message.find(" 1/s^2; allowed: up to "), std::string::npos)
     << message;
-  // Beyond all modes nothing needs to be computed.
+  // A shift beyond all modes is refused before anything is computed.
   EXPECT_EQ(refusal([&] {
               const Analysis shifted(text(1e14));
             }).find("Modes/Shift: found 1e+14 1/s^2; allowed: less than "),
             0u);
 }
 
-// A body on springs that are so soft that it moves on them as a rigid one: its
-// other modes are those of the free body but for the ratio of both stiffnesses,
-// and the suspension has omega^2 = k / m, with the area of the side and the
-// mass 0.06 kg.
+// A body on springs so soft that it moves on them as a rigid body: its other
+// modes are those of the free body up to the ratio of the stiffnesses, and the
+// suspension has omega^2 = k / m, with the area of the side and the mass 0.06
+// kg.
 TEST(ModalAnalysis, SoftSprings)
 {
   const std::string body = box_body("1, 0.3, 0.2", "5, 2, 1", 2, 0.3, 9);
@@ -272,7 +272,8 @@ TEST(ModalAnalysis, SoftSprings)
                     free.mode(i).frequency,
                     (1e2 * k + 1e-11) * free.mode(i).frequency)
           << k;
-      // Moving along y and twisting about x go together, along z not.
+      // The motion along y is coupled with the rotation about x, that along z
+      // is not.
       double nearest = 1;
       for (unsigned int i = 1; i <= 6; ++i)
         nearest =
@@ -283,11 +284,11 @@ TEST(ModalAnalysis, SoftSprings)
     }
 }
 
-// Bending and twisting of a beam that is symmetric to its middle planes: each
-// mode has two or more largest components, of both signs. On all ranks together
-// and on each rank alone signs are the same: the products of the shapes with a
-// field without any symmetry agree as well as the shapes do, by the tolerance
-// 1e-8 over the relative gaps between frequencies, some 1e-2.
+// Bending and twisting modes of a beam that is symmetric about its middle
+// planes: each has two or more largest components, of both signs. Signs are the
+// same on all ranks together and on each rank alone: products of the shapes
+// with a field without symmetry agree as well as the shapes do, to the
+// tolerance 1e-8 over the relative gaps between frequencies, some 1e-2.
 TEST(ModalAnalysis, SignsDoNotDependOnRanks)
 {
   const auto products = [](const std::string &boundaries, const MPI_Comm comm) {

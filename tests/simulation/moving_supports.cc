@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Supports that move: their reactions against Newton's second law, and against
-// those of a run that lasts longer.
+// Supports that move: their reactions compared with Newton's second law, and
+// with those of a run that lasts longer.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -62,7 +62,7 @@ namespace
            displacements(displacement) + linear_solver("automatic", 1e-12);
   }
 
-  // All nodes are on sides that move alike.
+  // A bar all of whose nodes are on sides that move by u.
   std::string
   carried_bar(const std::string &u)
   {
@@ -70,15 +70,14 @@ namespace
   }
 } // namespace
 
-// A body all of whose nodes are carried along has the reaction m a, m = 6 kg,
-// at each moment, whatever the duration of the run and the method, if that
-// balances forces at the end of a step: with the
-// exact second derivative, but for round-off.
+// A body whose nodes are all prescribed has the reaction m a, m = 6 kg, at each
+// time, for any duration of the run and any method that balances forces at the
+// end of a step: a is the exact second derivative, up to round-off.
 TEST(MovingSupports, ReactionIsMassTimesAcceleration)
 {
   const TemporaryFolder folder;
-  // Rows where values turn have slope zero: in between, 3 s^2 - 2 s^3. Times
-  // of kinks are those of steps but for round-off.
+  // At rows where values turn the slope is zero: in between, the cubic is 3 s^2
+  // - 2 s^3. Kinks are at times of steps up to round-off.
   const std::string file =
     folder.write("table.csv", "-1 0\n0 0\n0.5 1\n1 0\n2 0\n");
   const std::string tables =
@@ -118,7 +117,7 @@ TEST(MovingSupports, ReactionIsMassTimesAcceleration)
             << u << " at " << record.time << ", " << type;
 }
 
-// The same steps of a longer run have the same history, bit for bit: the
+// The same steps of a longer run have the same history, to the last bit: the
 // times of both are exact in binary.
 TEST(MovingSupports, DurationDoesNotMatter)
 {
@@ -147,10 +146,10 @@ TEST(MovingSupports, DurationDoesNotMatter)
       }
 }
 
-// A support that vibrates at 20 kHz, in a short and in a long run. With a given
-// step times differ by round-off, which makes 1e-15 of the phases and less than
-// 1e-11 of reactions that are sums of larger forces. Stable steps are cut to
-// end with the run: by less than one part in the number of steps, some ten
+// A support vibrates at 20 kHz, in a short and in a long run. With a given
+// step, times differ by round-off, which changes phases by 1e-15 and reactions,
+// sums of larger forces, by less than 1e-11. Stable steps are shortened to end
+// with the run, by less than one part in the number of steps, some ten
 // thousand.
 TEST(MovingSupports, VibrationIsTheSameInALongRun)
 {
@@ -174,7 +173,8 @@ TEST(MovingSupports, VibrationIsTheSameInALongRun)
   compare(first(0, 1e-2), first(0, 10), 1e-3);
 }
 
-// Statics needs no velocity: that of sqrt(t - 1) at the start is infinite.
+// Statics needs no velocity of supports: that of sqrt(t - 1) at the start is
+// infinite.
 TEST(MovingSupports, StaticsNeedsNoVelocity)
 {
   CompleteRun run(
@@ -189,9 +189,9 @@ TEST(MovingSupports, StaticsNeedsNoVelocity)
 }
 
 // In one load step a support moves by the length of the beam, by many times
-// that, or by less than a cell: the beam hangs from it as from one that stays,
-// after about as many iterations. (A support that alone moved first would crush
-// the cells at it, and leave them in another equilibrium.)
+// that, or by less than a cell: the beam hangs from it as from a fixed one,
+// after about as many iterations. (If the support alone moved first, it would
+// crush the cells at it, and leave them in another equilibrium.)
 TEST(MovingSupports, CarryABendingBeamInOneLoadStep)
 {
   const auto hang = [](const std::string &rotation, const double way) {
@@ -223,8 +223,8 @@ TEST(MovingSupports, CarryABendingBeamInOneLoadStep)
     }
 }
 
-// At a kink the velocity of a support jumps, and with it its kinetic energy,
-// which no work accounts for: that is not an unstable motion.
+// At a kink the velocity of a support jumps, and its kinetic energy, too,
+// without external work: this must not be taken for an instability.
 TEST(MovingSupports, KinksAreNotInstability)
 {
   CompleteRun waiting(bar("x-min: 5*ramp(t, 0.1, 1.1); 0; 0") +
@@ -233,6 +233,6 @@ TEST(MovingSupports, KinksAreNotInstability)
   CompleteRun carried(carried_bar("100*ramp(t, 0.1, 1.1)") +
                       time_integration("Newmark", 0.3, 0.01));
   EXPECT_EQ(carried.run(), "");
-  // 6 kg at 100 m/s.
+  // The kinetic energy of 6 kg at 100 m/s.
   EXPECT_NEAR(carried.recorder().records.back().kinetic_energy, 3e4, 1e-6);
 }

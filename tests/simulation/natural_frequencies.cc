@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Natural frequencies against theory and a benchmark of NAFEMS; orders of
+// Natural frequencies compared with theory and a NAFEMS benchmark; orders of
 // convergence.
 
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ using dealii::numbers::PI;
 
 namespace
 {
-  // Relative error of the first axial eigenvalue (pi/2)^2 E / (rho L^2) of a
-  // bar between rollers, whose material does not contract: the sides do not
+  // The relative error of the first axial eigenvalue (pi/2)^2 E / (rho L^2) of
+  // a bar between rollers, whose material does not contract: the sides do not
   // move sideways, so no other mode is as low.
   double
   axial_error(const unsigned int degree,
@@ -45,8 +45,8 @@ namespace
   }
 } // namespace
 
-// Eigenvalues converge with the order 2p for a consistent mass. Meshes are as
-// coarse as that; orders are short of their limit by less than 0.1.
+// Eigenvalues converge with order 2p for a consistent mass. The meshes are so
+// coarse that orders are below this limit, by less than 0.1.
 TEST(NaturalFrequencies, OrderOfConsistentMass)
 {
   EXPECT_NEAR(axial_order(1, 2, "consistent"), 2, 0.1);
@@ -54,7 +54,7 @@ TEST(NaturalFrequencies, OrderOfConsistentMass)
   EXPECT_NEAR(axial_order(3, 1, "consistent"), 6, 0.1);
 }
 
-// Lumped masses have the order 2 whatever the degree: their error is that of a
+// Lumped masses have order 2 for any degree: their error is that of a
 // quadrature rule which is exact for linear polynomials.
 TEST(NaturalFrequencies, OrderOfLumpedMass)
 {
@@ -66,8 +66,8 @@ TEST(NaturalFrequencies, OrderOfLumpedMass)
 
 namespace
 {
-  // First root of the frequency equation of a cantilever by Timoshenko's beam
-  // theory (Huang, J. Appl. Mech. 28, 1961, 579-584), as omega in units of
+  // The first root of the frequency equation of a cantilever by Timoshenko's
+  // beam theory (Huang, J. Appl. Mech. 28, 1961, 579-584): omega in units of
   // sqrt(E / rho) / L, for a square section with thickness / L = t, Poisson's
   // ratio 0 and the shear coefficient 5/6.
   double
@@ -85,7 +85,7 @@ namespace
              b * (r2 + s2) / std::sqrt(1 - b * b * r2 * s2) *
                std::sinh(b * alpha) * std::sin(b * beta);
     };
-    // Without shear b = 3.516.
+    // Without shear the root is b = 3.516.
     double low = 3, high = 3.6;
     for (unsigned int i = 0; i < 60; ++i)
       {
@@ -96,12 +96,13 @@ namespace
   }
 } // namespace
 
-// A cantilever of square section, 20 times as long as thick, nu = 0, against
-// theories of beams: bending by Timoshenko's, torsion by Saint-Venant's (with
-// J = 0.140577 t^4, polar moment t^4 / 6) and extension, (pi / 2) sqrt(E / rho)
-// / L, which is exact, so that only the error of order 2p is left. The clamped
-// end, which cannot warp, makes torsion stiffer by about 0.2 %. Effective
-// masses: 8 / pi^2 of extension; 0.6131 of bending, by Bernoulli's theory.
+// A cantilever of square section, 20 times as long as thick, nu = 0, compared
+// with beam theories: Timoshenko's for bending, Saint-Venant's for torsion
+// (with J = 0.140577 t^4, polar moment t^4 / 6), and extension, (pi / 2) sqrt(E
+// / rho) / L, which is exact, so that only the error of order 2p is left. The
+// clamped end, which cannot warp, makes torsion stiffer by about 0.2 %.
+// Effective masses: 8 / pi^2 for extension; 0.6131 for bending, by Bernoulli's
+// theory.
 TEST(NaturalFrequencies, Cantilever)
 {
   const double thickness = 0.05, mass = thickness * thickness;
@@ -143,13 +144,14 @@ TEST(NaturalFrequencies, Cantilever)
     }
 }
 
-// NAFEMS' benchmark FV52 (Selected benchmarks for natural frequency analysis,
-// R0015): three rigid body modes, then 44.762, 110.52 (twice), 169.08, 193.93
-// and 206.64 Hz (twice), computed by 4 x 4 x 1 bricks of 20 nodes. The plate
-// stands on lines: solids do not feel these in the limit of small cells, so
-// bending frequencies fall with each refinement, and a figure without its mesh
-// has no meaning. With 6 x 6 x 1 cuboids of degree 2 all are within 1 %; the
-// mode in the plane, 193.59 Hz by theory, is the same on all meshes.
+// The NAFEMS benchmark FV52 (Selected benchmarks for natural frequency
+// analysis, R0015) has three rigid body modes, then 44.762, 110.52 (twice),
+// 169.08, 193.93 and 206.64 Hz (twice), computed with 4 x 4 x 1 bricks of 20
+// nodes. The plate is supported on lines, which solids do not feel in the limit
+// of small cells: bending frequencies decrease with each refinement, so a value
+// without its mesh has no meaning. With 6 x 6 x 1 cuboids of degree 2 all are
+// within 1 %; the mode in the plane, 193.59 Hz by theory, is the same on all
+// meshes.
 TEST(NaturalFrequencies, PlateOnItsLowerEdges)
 {
   const Analysis plate(
@@ -164,7 +166,7 @@ TEST(NaturalFrequencies, PlateOnItsLowerEdges)
     EXPECT_LT(plate.mode(i).frequency, 1e-10 * 44.762);
   for (unsigned int i = 0; i < 7; ++i)
     EXPECT_NEAR(plate.mode(4 + i).frequency, expected[i], 0.01 * expected[i]);
-  // The mesh is as symmetric as the plate: pairs are equal up to round-off.
+  // The mesh has the symmetry of the plate: pairs are equal up to round-off.
   for (const unsigned int i : {5u, 9u})
     EXPECT_NEAR(plate.mode(i).frequency,
                 plate.mode(i + 1).frequency,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Newton's method in statics with large rotations: the observed order of the
-// consistent tangent, and what the frozen one takes.
+// Newton's method in statics with large rotations: the observed order with the
+// consistent tangent, and the iterations with the frozen one.
 
 #include <corotet/time_integration/load_stepping.h>
 
@@ -19,14 +19,15 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Linear convergence takes hundreds; less patience where they are expensive.
+  // Linear convergence takes hundreds of iterations; the limit is lower where
+  // they are expensive.
   unsigned int
   max_iterations(const unsigned int degree)
   {
     return degree == 3 ? 100 : 300;
   }
 
-  // Laws that take the step from 40 to 80 degrees in ten iterations.
+  // Laws that need at most ten iterations for the step from 40 to 80 degrees.
   bool
   takes_far_steps(const NamedLaw &law)
   {
@@ -38,7 +39,7 @@ namespace
   // multiplied by the time.
   struct Cantilever : public MovingBody
   {
-    // The tip turns by 40 degrees under the traction @p first, by 80 degrees
+    // The tip rotates by 40 degrees under the traction @p first, by 80 degrees
     // under @p second: P L^2 / EI is some 1.7 and 8.7 (elastica); linear
     // tetrahedra are far stiffer in bending.
     static constexpr double
@@ -73,7 +74,7 @@ namespace
       return load_stepping.step(system, {from, to - from, 1.}, state);
     }
 
-    // Largest rotation of a cell in degrees.
+    // The largest rotation of a cell [degrees].
     double
     angle()
     {
@@ -97,7 +98,7 @@ class NewtonConvergence
   : public testing::TestWithParam<std::tuple<unsigned int, unsigned int>>
 {};
 
-// From 40 to 80 degrees in a single step.
+// The bar goes from 40 to 80 degrees in a single step.
 TEST_P(NewtonConvergence, QuadraticWithTheConsistentTangent)
 {
   const auto &[degree, number] = GetParam();
@@ -122,7 +123,8 @@ TEST_P(NewtonConvergence, QuadraticWithTheConsistentTangent)
   EXPECT_GE(exact.order, 1.8);
   EXPECT_LE(exact.newton_iterations, 10u);
 
-  // The frozen tangent takes far more, or too many. It need not on two ranks.
+  // The frozen tangent takes far more iterations, or too many. One rank is
+  // enough to check this.
   if (dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) > 1)
     return;
   try
@@ -131,7 +133,7 @@ TEST_P(NewtonConvergence, QuadraticWithTheConsistentTangent)
       report("iterations with the frozen tangent" + what,
              linear.newton_iterations);
       EXPECT_GE(linear.newton_iterations, 10 * exact.newton_iterations);
-      // Both are at the same equilibrium, to their tolerance.
+      // Both reach the same equilibrium, to their tolerance.
       EXPECT_LE(largest_difference(frozen.state.u, body.state.u), 1e-9);
     }
   catch (const ComputationError &error)
@@ -141,8 +143,8 @@ TEST_P(NewtonConvergence, QuadraticWithTheConsistentTangent)
     }
 }
 
-// Hyperelastic laws take more iterations where a body turns far in one step, so
-// the step is smaller; near the solution all are as fast.
+// Hyperelastic laws take more iterations where a body rotates far in one step,
+// so the step is smaller; near the solution all laws converge equally fast.
 TEST_P(NewtonConvergence, QuadraticNearTheSolution)
 {
   const auto &[degree, number] = GetParam();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Runs of very many steps: refused where they cannot be counted, else said.
+// Runs with very many steps: refused if the number cannot be counted, else a
+// warning.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ namespace
     return refusal([&] { const CompleteRun run(cube(integration)); });
   }
 
-  // Those of the number of steps. Collective.
+  // The warnings about the number of steps. Collective.
   std::vector<std::string>
   warnings_of_steps(CompleteRun &run)
   {
@@ -61,7 +62,7 @@ TEST(NumberOfSteps, EqualSteps)
               {"steps of 9.9e-08 s: 1.01e+07 of them up to the end time"}));
 }
 
-// The stable step of the default material is some microseconds.
+// The stable step for the default material is some microseconds.
 TEST(NumberOfSteps, StableSteps)
 {
   const Entry type("Type", "central difference"), stable("Time step", 0);
@@ -74,8 +75,8 @@ TEST(NumberOfSteps, StableSteps)
   EXPECT_FALSE(warnings_of_steps(many).empty());
 }
 
-// Adaptive steps: those of the first length would be too many, and so are those
-// that get ever shorter before a load that is not finite, until there are none.
+// Adaptive steps of the first length would be too many; and steps become ever
+// shorter before a load that is not finite, until round-off swallows them.
 TEST(NumberOfSteps, AdaptiveSteps)
 {
   const auto adaptive = [](const double step) {
@@ -102,8 +103,8 @@ TEST(NumberOfSteps, AdaptiveSteps)
   EXPECT_FALSE(warnings_of_steps(shorter).empty());
 }
 
-// The same at other times: half a step of one unit of round-off may be rounded
-// to that step again, which must not go on for ever.
+// This holds at other times, too: half of a step of one unit of round-off may
+// be rounded to that step again, which must not go on for ever.
 TEST(NumberOfSteps, RejectedStepsBecomeShorter)
 {
   for (unsigned int i = 1; i < 60; i += 3)
@@ -121,9 +122,8 @@ TEST(NumberOfSteps, RejectedStepsBecomeShorter)
     }
 }
 
-// An energy of which the squares overflow while the forces are good: the step
-// that makes it does not count, and time, state and record stay those of the
-// step before.
+// An energy whose squares overflow while the forces are finite: the step does
+// not count, and time, state and record remain those of the step before.
 class EnergyOverflow : public testing::TestWithParam<std::string>
 {};
 
@@ -144,7 +144,7 @@ TEST_P(EnergyOverflow, StepIsTakenBack)
                             last.external_work + last.energy_balance));
   const double time = last.time;
   EXPECT_LT(time, 2);
-  // The last record may be that of a part of a step.
+  // The last record may belong to a part of a step.
   EXPECT_NE(message.find(fmt::format("(t = {:.6g}): ", time)),
             std::string::npos)
     << message;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Integrators that are not part of the library, as a program that uses it would
-// add them: an implicit one with a parameter and an explicit one. As long as
-// they are in the list, all tests that loop over it test them, too: orders,
-// budgets, moving supports, free fall.
+// Integrators that are not part of the library, added as a program that uses it
+// would: an implicit one with a parameter and an explicit one. As long as they
+// are in the list, all tests that loop over it test them, too: orders, budgets,
+// moving supports, free fall.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -46,7 +46,7 @@ namespace
     step(SecondOrderSystem &system, const TimeStep &step, State &state) override
     {
       const double dt = step.dt, h = theta * dt;
-      // Guess: the acceleration does not change.
+      // The guess: the acceleration does not change.
       far.u = state.u;
       far.u.add(h, state.v, 0.5 * h * h, state.a);
       far.v = state.v;
@@ -56,8 +56,8 @@ namespace
       const StageReport report = system.solve_stage(
         far, {step.time + h, 3 / h, 6 / (h * h), 1., &state, 0.5 * h * h});
 
-      // The acceleration at the end of the step; displacement and velocity by
-      // integration from the start.
+      // The acceleration at the end of the step; displacement and velocity
+      // follow by integration from the start.
       far.a.sadd(1 / theta, 1 - 1 / theta, state.a);
       state.u.add(dt, state.v, dt * dt / 3, state.a);
       state.u.add(dt * dt / 6, far.a);
@@ -118,7 +118,7 @@ namespace
       return &control;
     }
 
-    // Where (omega dt)^2 + 2 alpha_K omega^2 dt = 4.
+    // The step where (omega dt)^2 + 2 alpha_K omega^2 dt = 4.
     double
     stable_step(const double omega, const double alpha_K) const override
     {
@@ -135,8 +135,8 @@ namespace
   const AddedCandidate<TimeIntegrator> symplectic_euler(
     candidate<TimeIntegrator, SymplecticEuler>("symplectic Euler"));
 
-  // A clamped linear bar that is pulled along its axis from time 0 on by a
-  // traction of 100 sin(pi t), from rest.
+  // A clamped linear bar, at rest, that is pulled along its axis from time 0 on
+  // by a traction of 100 sin(pi t).
   std::string
   pulled_bar(const std::string &type,
              const double       time_step,
@@ -162,7 +162,8 @@ namespace
   }
 } // namespace
 
-// They follow the library's in the list, and its tests meet them.
+// The added integrators follow those of the library in the list, so its tests
+// use them, too.
 TEST(OutsideIntegrators, AreInTheList)
 {
   const auto all = time_integrators();
@@ -172,8 +173,8 @@ TEST(OutsideIntegrators, AreInTheList)
   EXPECT_NE(all[0].name, "Wilson theta");
 }
 
-// From the parameter file to the last step: selected by name, with its own
-// parameter, of second order for all theta.
+// An added integrator works from the parameter file to the last step: selected
+// by name, with its own parameter, of second order for all theta.
 TEST(OutsideIntegrators, ImplicitWithAParameter)
 {
   const auto run = [](const double theta, const unsigned int n) {
@@ -181,8 +182,9 @@ TEST(OutsideIntegrators, ImplicitWithAParameter)
                   1. / n,
                   {section("Wilson theta", {{"Theta", theta}})});
   };
-  // Of second order, too, with steps 16 times shorter than the shorter ones
-  // below: errors of half a percent of theirs, of 0.01 in the order.
+  // The reference is of second order, too, with steps 16 times shorter than the
+  // shorter ones below: its error is half a percent of theirs, and 0.01 in the
+  // order.
   const Vector reference = run(1.4, 32768);
   double       errors[2];
   for (const double theta : {1.4, 2.})
@@ -197,11 +199,11 @@ TEST(OutsideIntegrators, ImplicitWithAParameter)
   EXPECT_THROW(run(1.2, 1), std::exception) << "1.37 is the least";
 }
 
-// Explicit by what it says, not by its name: steps of the program's choice,
-// from the stable step, and refused above it. Displacements are those of the
-// central difference method with an initial velocity that is half a step of
-// acceleration ahead; from rest without forces at the start there is none, so
-// they agree to round-off.
+// The integrator is explicit by its functions, not by its name: the program can
+// choose its step, and larger steps than the stable one are refused.
+// Displacements are those of the central difference method with an initial
+// velocity that is half a step of acceleration ahead; from rest without forces
+// there is no difference, so they agree to round-off.
 TEST(OutsideIntegrators, Explicit)
 {
   CompleteRun by_itself(pulled_bar("symplectic Euler", 0));
@@ -216,14 +218,14 @@ TEST(OutsideIntegrators, Explicit)
   const std::string text =
     refusal([] { CompleteRun(pulled_bar("symplectic Euler", 1)); });
   EXPECT_NE(text.find("which is unstable"), std::string::npos) << text;
-  // Messages name those that can, whoever they are.
+  // Messages name all methods that allow it, added ones included.
   EXPECT_EQ(refusal([] { CompleteRun(pulled_bar("Wilson theta", 0)); }),
             "Time integration/Time step: found 0; allowed: a positive number "
             "(0, the program's choice, with Type = central difference, "
             "symplectic Euler)");
 }
 
-// The list has them for as long as they are wanted.
+// An added integrator is in the list as long as its AddedCandidate lives.
 TEST(OutsideIntegrators, LeaveTheList)
 {
   const auto names = [] {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Bodies that start crushed, turned inside out or torn to random positions and
-// are left to damped dynamics.
+// Bodies that start crushed, inverted or with random positions, and then move
+// in damped dynamics.
 
 #include <corotet/material/polar_decomposition.h>
 #include <corotet/time_integration/backward_euler.h>
@@ -22,8 +22,8 @@ using dealii::Tensor;
 
 namespace
 {
-  // The unit cube of 135 cells, free in space. Linearly implicit steps of 0.3 s
-  // are some five periods of its slowest vibration.
+  // The unit cube of 135 cells, free in space. A linearly implicit step of 0.3
+  // s is some five periods of its slowest vibration.
   struct Cube : public MovingBody
   {
     Cube(const unsigned int degree, const std::string &rotation)
@@ -36,7 +36,7 @@ namespace
                               {"Linearly implicit", true}}))
     {}
 
-    // x -> F x about the centre.
+    // Maps x to F x about the centre.
     void
     map(const Tensor<2, 3> &F)
     {
@@ -46,7 +46,8 @@ namespace
       }));
     }
 
-    // All nodes anywhere in the cube. The same on any number of ranks.
+    // Moves all nodes to random positions in the cube, the same on any number
+    // of ranks.
     void
     randomize(const unsigned int seed)
     {
@@ -63,7 +64,8 @@ namespace
             discretization.node_position(n)[a];
     }
 
-    // Steps until the shape is back, or for so many steps.
+    // Makes steps until the shape is restored, at most so many; returns its
+    // error.
     double
     recover(const unsigned int max_steps)
     {
@@ -79,8 +81,8 @@ namespace
       return shape_error();
     }
 
-    // Largest distance of a node from where it is after the rigid motion of the
-    // rest shape that fits best.
+    // The largest distance of a node from its position after the rigid motion
+    // of the rest shape that fits best.
     double
     shape_error() const
     {
@@ -115,7 +117,7 @@ namespace
                          ((now(i) - centre) -
                           R * (discretization.node_position(i) - rest_centre))
                            .norm());
-      // A maximum forgets what is not a number.
+      // A maximum ignores what is not a number.
       return dealii::Utilities::MPI::max(std::isfinite(norm(state.u)) ? error :
                                                                         1e300,
                                          MPI_COMM_WORLD);
@@ -164,8 +166,8 @@ TEST_P(Recovery, FromAPlaneALineAndAPoint)
     }
 }
 
-// Of 100 starts each, 99, 100 and 100 come back with degree 1, 2 and 3 within
-// 1,000 steps; of the first ten all.
+// Of 100 starts each, 99, 100 and 100 recover with degree 1, 2 and 3 within
+// 1,000 steps; all of the first ten do.
 TEST_P(Recovery, FromRandomPositions)
 {
   double       largest = 0;
@@ -186,10 +188,10 @@ TEST_P(Recovery, FromRandomPositions)
   report(fmt::format("most steps, P{}", GetParam()), n_steps);
 }
 
-// Nothing forces a body that is turned inside out to come back. Its rotation is
-// not unique, round-off chooses; so what becomes of it is measured only. With
-// the second rotation cells at the border of two ranks may have two: on one
-// rank only.
+// Nothing forces an inverted body to come back. Its rotation is not unique, so
+// round-off decides, and the result is only reported. With rotations at
+// quadrature points, cells at the border of two ranks may have a different
+// rotation on each: one rank only.
 TEST_P(Recovery, FromTheMirrorImage)
 {
   for (const std::string rotation : {"cell centre", "quadrature points"})

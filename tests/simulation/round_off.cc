@@ -27,7 +27,7 @@ namespace
     "set Rotation = quadrature points",
     "set Rotation = cell centre, variational"};
 
-  // Largest distance of a node's displacement from (0, 0, @p z).
+  // The largest distance of a node's displacement from (0, 0, @p z).
   double
   distance_from(const Vector &u, const double z)
   {
@@ -49,9 +49,9 @@ namespace
     return most;
   }
 
-  // Where a point mass falls to from rest in @p n steps of that integrator. It
-  // is near to the exact place: constants of the errors of those in use are 1
-  // and 1.5.
+  // The position of a point mass that falls from rest in @p n steps of the
+  // integrator; checks that it is near the exact one: the error constants of
+  // the integrators in use are 1 and 1.5.
   double
   fallen(TimeIntegrator &integrator, const unsigned int n, const double dt)
   {
@@ -73,10 +73,10 @@ class FreeFall
   : public testing::TestWithParam<std::tuple<unsigned int, std::string>>
 {};
 
-// A steel block falls for five seconds, 120 m: its cells of 0.2 m are then
-// known to a strain of 1e-13, a stress of 0.03 Pa, where gravity makes 8 kPa.
-// The displacement must be that of a point mass to 1e-9, and no step may take
-// more than one iteration: what is left after it is round-off.
+// A steel block falls for five seconds, 120 m: then round-off of positions is a
+// strain of 1e-13 in its cells of 0.2 m, so a stress of 0.03 Pa, while gravity
+// causes 8 kPa. The displacement must be that of a point mass to 1e-9, and each
+// step takes one iteration at most, as the rest is round-off.
 TEST_P(FreeFall, OfSteel)
 {
   const auto [degree, law] = GetParam();
@@ -100,8 +100,8 @@ TEST_P(FreeFall, OfSteel)
     }
 }
 
-// The same with explicit steps, of 1e-5 s, from 100 m below on: exact for a
-// constant acceleration.
+// The same with explicit steps of 1e-5 s, starting 100 m further down: they are
+// exact for a constant acceleration.
 TEST_P(FreeFall, OfSteelExplicitly)
 {
   const auto [degree, law] = GetParam();
@@ -136,8 +136,8 @@ INSTANTIATE_TEST_SUITE_P(All,
 class StiffBody : public testing::TestWithParam<std::string>
 {};
 
-// A support that moves by 10 m within a second carries a steel block along,
-// which bends by its inertia: far less than a millimetre.
+// A support that moves by 10 m in a second carries a steel block, which its
+// inertia bends by far less than a millimetre.
 TEST_P(StiffBody, IsCarriedFar)
 {
   CompleteRun ride(
@@ -175,12 +175,12 @@ namespace
       linear_solver(solver) + more);
   }
 
-  // The linear solver's tolerance, times what a slender body may make of a
-  // residual.
+  // The linear solver's tolerance, times the amplification of residuals in a
+  // slender body.
   constexpr double slender = 1e3 * 1e-8;
 } // namespace
 
-// Loaded and unloaded: in the last step no force is left.
+// The beam is loaded and unloaded: in the last step no force is left.
 TEST_P(LinearStatics, Unloads)
 {
   CompleteRun beam =
@@ -190,8 +190,8 @@ TEST_P(LinearStatics, Unloads)
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
-  // Of beam theory: F L^3 / (3 E I) = 5.12 mm, to which six quadratic cells
-  // come close.
+  // Beam theory gives F L^3 / (3 E I) = 5.12 mm, to which six quadratic cells
+  // are close.
   EXPECT_NEAR(steps[1].max_displacement, 5.12e-3, 0.05 * 5.12e-3);
   EXPECT_NEAR(steps[0].max_displacement,
               0.5 * steps[1].max_displacement,
@@ -201,7 +201,7 @@ TEST_P(LinearStatics, Unloads)
     EXPECT_EQ(step.newton_iterations, 1u);
 }
 
-// Carried by its support a body has no forces at all.
+// A body that is carried by its support has no forces at all.
 TEST_P(LinearStatics, IsCarriedBySupport)
 {
   CompleteRun beam =
@@ -210,14 +210,14 @@ TEST_P(LinearStatics, IsCarriedBySupport)
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
   ASSERT_EQ(steps.size(), 4u);
-  // Forces of cells that are crushed at the support do not count: solves go on
-  // until nothing but their round-off is left.
+  // Forces of cells that are crushed at the support do not count for the
+  // tolerance: solves go on until only their round-off is left.
   constexpr double exact = 1e-6 * slender;
   EXPECT_NEAR(steps[1].max_displacement, 0.1, exact * 0.1);
   EXPECT_LE(distance_from(beam.recorder().displacement, 0), exact * 0.1);
   for (const StepRecord &step : steps)
     {
-      // A factorisation may be as good as two solves to a tolerance.
+      // A factorisation may be as accurate as two iterative solves.
       EXPECT_GE(step.newton_iterations, 1u);
       EXPECT_LE(step.newton_iterations, 3u);
     }
@@ -232,9 +232,9 @@ INSTANTIATE_TEST_SUITE_P(Solvers,
                            return name;
                          });
 
-// A plate that is let go in long steps: at the guess for the first one, the
-// accelerations of the fastest waves make forces that are 1e8 times those of
-// the solution. A part of them is no tolerance.
+// A plate that is released in long steps: at the first guess the accelerations
+// of the fastest waves cause forces that are 1e8 times those of the solution.
+// The tolerance must not be relative to these.
 TEST(RoundOff, ForcesOfAGuessDoNotCount)
 {
   for (const std::string solver : {"automatic", "direct"})
@@ -248,13 +248,13 @@ TEST(RoundOff, ForcesOfAGuessDoNotCount)
       ASSERT_EQ(plate.run(), "");
       const StepRecord &last   = plate.recorder().steps.back();
       const double      energy = last.kinetic_energy + last.elastic_energy;
-      // This method keeps the energy: the solver's tolerance is left.
+      // This method keeps the energy up to the solver's tolerance.
       EXPECT_LE(std::abs(last.energy_balance), 1e-8 * energy) << solver;
     }
 }
 
-// Springs that are gone at the end: nothing resists the weight any more, and
-// round-off of ever larger displacements is no excuse for a residual.
+// Springs vanish at the end of the run, so nothing resists the weight: a
+// residual must not be accepted as the round-off of ever larger displacements.
 TEST(RoundOff, NothingResists)
 {
   CompleteRun body(box_mesh("1, 1, 1", "3, 3, 3") + fixed("") +
@@ -271,8 +271,8 @@ namespace
     std::string  name;
     std::string  text;
     unsigned int n_steps;
-    /// That a step may take [-]: where all forces are round-off nothing is left
-    /// to do but to follow a support.
+    /// The largest number of iterations of a step [-]: more than one is only
+    /// needed to follow a support or a load.
     unsigned int n_iterations;
   };
 
@@ -330,8 +330,8 @@ namespace
 class Forceless : public testing::TestWithParam<ForcelessCase>
 {};
 
-// Bodies whose forces are round-off, or smaller than it: they reach the end,
-// in the steps that were asked for and without many iterations.
+// Bodies whose forces are round-off, or below it, must reach the end, in the
+// given steps and with few iterations.
 TEST_P(Forceless, ReachesTheEnd)
 {
   CompleteRun run(GetParam().text);
@@ -348,8 +348,8 @@ INSTANTIATE_TEST_SUITE_P(Cases,
                          testing::ValuesIn(forceless_cases),
                          [](const auto &info) { return info.param.name; });
 
-// A beam of a thickness of 1 / 3,750 of its length: its residual cannot fall
-// below some 1e-7 of the forces, for whatever solver.
+// A beam with a thickness of 1 / 3,750 of its length: its residual cannot fall
+// below some 1e-7 of the forces, for any solver.
 TEST(RoundOff, ThinBeam)
 {
   CompleteRun beam = linear_statics("direct",
@@ -358,17 +358,17 @@ TEST(RoundOff, ThinBeam)
                                       tractions("x-max: 0; 0; 1e-4"));
   ASSERT_EQ(beam.run(), "");
   const auto &steps = beam.recorder().steps;
-  // F L^3 / (3 E I), with F = 1e-4 h^2 and I = h^4 / 12. Quadratic cells have
-  // no other than this cubic deflection to represent, but do it by parts of
-  // second degree: a sixtieth of the length each.
+  // The deflection is F L^3 / (3 E I), with F = 1e-4 h^2 and I = h^4 / 12. It
+  // is cubic, and each quadratic cell approximates it in a sixtieth of the
+  // length.
   const double deflection = 4 * 1e-4 * std::pow(3.75, 3) / (1e7 * 1e-6);
   EXPECT_NEAR(steps[0].max_displacement, deflection, 1e-2 * deflection);
   for (const StepRecord &step : steps)
     EXPECT_LE(step.newton_iterations, 2u);
 }
 
-// Steps of 0.01 s are not all equal in their last digit: the preconditioner
-// stays. Halving a step, or another one, makes a new one.
+// Steps of 0.007 s differ in their last digit; the preconditioner must be kept.
+// (A half step, or another one, makes a new one.)
 TEST(RoundOff, PreconditionerStays)
 {
   for (const std::string &integrator : integrators_with(is_implicit_dynamic))
@@ -385,9 +385,9 @@ TEST(RoundOff, PreconditionerStays)
     }
 }
 
-// A bar that turns through a radian takes somewhat more iterations with each
-// step, never half as many again: when that adds up to the costs of another
-// preconditioner, there is one.
+// A bar that rotates by a radian takes somewhat more iterations with each step,
+// but never half as many again: when the extra iterations have cost as much as
+// a new preconditioner, one is made.
 TEST(RoundOff, PreconditionerOfATurningBodyIsRenewed)
 {
   CompleteRun run(box_mesh("2, 0.1, 0.1", "20, 1, 1") + material_text(1e6, 0) +

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Whole runs: the same on any number of ranks, and a failure that says so.
+// Whole runs: equal results on any number of ranks, and failures that are
+// reported.
 
 #include <corotet/simulation/modal_analysis.h>
 
@@ -30,10 +31,10 @@ namespace
   }
 } // namespace
 
-// Parameters are values: two runs that are made of the same ones, one within
-// the other, have the same results to the last bit as one alone, with the same
-// work; so have modes after that. BDF2 keeps vectors of earlier steps, the
-// exact tangent a preconditioner.
+// Parameters are values: two runs made from the same object, one within the
+// other, have the same results to the last bit as a single run, with the same
+// work; so have modes computed after that. BDF2 keeps vectors of earlier steps,
+// the exact tangent a preconditioner.
 TEST(Simulation, ParametersMakeAnyNumberOfRuns)
 {
   const std::string text =
@@ -93,8 +94,8 @@ TEST(Simulation, ParametersMakeAnyNumberOfRuns)
   EXPECT_GT(frequencies[0], 0);
 }
 
-// Each rank alone, and all ranks together: every number of the history agrees
-// to 1e-8, as the solvers' tolerances (1e-11, 1e-10) allow.
+// Each rank alone and all ranks together give the same history to 1e-8, as the
+// solvers' tolerances (1e-11, 1e-10) allow.
 TEST(Simulation, SameOnAnyNumberOfRanks)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -144,7 +145,7 @@ TEST(Simulation, SameOnAnyNumberOfRanks)
     }
 }
 
-// A failure keeps what was computed, tells the observers, and is thrown on.
+// A failure keeps the computed results, tells the observers, and is thrown on.
 TEST(Simulation, FailureIsTold)
 {
   CompleteRun run(swinging_beam +
@@ -169,8 +170,8 @@ TEST(Simulation, FailureIsTold)
         std::string::npos)
         << error.what();
     }
-  // Five whole steps, and the part of the sixth that could be made: its forces
-  // are those of 5/9 of its length (spectral radius 0.8).
+  // There are five whole steps and a part of the sixth, as large as possible:
+  // its forces are evaluated at 5/9 of its length (spectral radius 0.8).
   EXPECT_EQ(run.recorder().summary.status, "failed");
   EXPECT_EQ(run.recorder().summary.steps, 6u);
   ASSERT_EQ(run.recorder().records.size(), 7u);
@@ -178,10 +179,10 @@ TEST(Simulation, FailureIsTold)
   EXPECT_TRUE(run.recorder().last);
 }
 
-// The same before the first step: no results, but a summary.
+// A failure before the first step leaves no results, but a summary.
 TEST(Simulation, FailureAtTheStartIsTold)
 {
-  // Crushed to a plane, where this law has no stress.
+  // The body is crushed to a plane, where this law has no stress.
   CompleteRun run(swinging_beam + material_type("neo-Hookean") +
                     initial_conditions("-x; 0; 0", "0; 0; 0"),
                   MPI_COMM_WORLD);
@@ -202,8 +203,8 @@ TEST(Simulation, FailureAtTheStartIsTold)
   EXPECT_EQ(run.recorder().records.size(), 0u);
 }
 
-// What the formulas of a run say at its start and at its end is looked at
-// before anything is computed.
+// Formulas are evaluated at the start and end of a run before anything is
+// computed.
 TEST(Simulation, FormulasThatAreNotFiniteAreRefused)
 {
   for (const auto &[formula, time] :

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Static linear elasticity against exact solutions: orders of convergence and
-// reactions.
+// Static linear elasticity compared with exact solutions: orders of convergence
+// and reactions.
 
 #include <corotet/simulation/energy_budget.h>
 #include <corotet/time_integration/load_stepping.h>
@@ -36,8 +36,8 @@ namespace
     double L2, H1;
   };
 
-  // On the unit cube with n^3 cuboids: displacement on three sides, traction on
-  // the others.
+  // Errors on the unit cube with n^3 cuboids: displacement on three sides,
+  // traction on the others.
   Errors
   wave_errors(const unsigned int degree, const unsigned int n)
   {
@@ -70,8 +70,8 @@ namespace
   }
 } // namespace
 
-// Theory: p + 1 in L2 and p in H1; measured between the two finest meshes that
-// keep the test fast.
+// In theory the order is p + 1 in L2 and p in H1; measured between the two
+// finest meshes that keep the test fast.
 TEST(Statics, OrdersOfConvergence)
 {
   for (unsigned int degree = 1; degree <= 3; ++degree)
@@ -88,8 +88,8 @@ TEST(Statics, OrdersOfConvergence)
     }
 }
 
-// Statics: the supports carry the loads. A point force, and a traction of the
-// same resultant (area 1), give the same reaction.
+// In statics the supports carry the loads. A point force, and a traction with
+// the same resultant (area 1), have the same reaction.
 TEST(Statics, Reactions)
 {
   for (const std::string &load :
@@ -111,8 +111,9 @@ TEST(Statics, Reactions)
         // Equilibrium holds to Newton's tolerance.
         EXPECT_LE((record.reaction + Tensor<1, 3>({1., 2., -3.})).norm(), 1e-10)
           << record.reaction;
-        // Clapeyron: half the work of the final load is stored; the mean force
-        // of a proportional step is half of it. Exact for linear elasticity.
+        // By Clapeyron's theorem half the work of the final load is stored: the
+        // mean force of a proportional step is half of the final one. This is
+        // exact for linear elasticity.
         if (type == "linear")
           {
             EXPECT_NEAR(record.energy_balance,
@@ -123,8 +124,8 @@ TEST(Statics, Reactions)
       }
 }
 
-// A stretch in one step: nu = 0, so that sigma = E eps and the supports pull
-// with E eps A; volume grows by the stretch.
+// A stretch in one step: nu = 0, so sigma = E eps, the supports pull with E eps
+// A, and the volume grows by the stretch.
 TEST(Statics, PrescribedStretch)
 {
   MovingBody body(box("2, 1, 1", "4, 2, 2", 0.1),
@@ -144,8 +145,8 @@ TEST(Statics, PrescribedStretch)
   EXPECT_LE(record.reaction.norm(), 1e-6);
 }
 
-// A guess of the first state is no state: a linear body takes up what the load
-// does, to round-off, as without a guess.
+// A guess of the first state is not a state of the body: a linear body stores
+// the work of the load, to round-off, as without a guess.
 TEST(Statics, AGuessDoesNoWork)
 {
   for (const unsigned int n : {1u, 3u})
@@ -163,15 +164,16 @@ TEST(Statics, AGuessDoesNoWork)
                        &b = with.recorder().steps.back();
       EXPECT_NEAR(b.external_work, a.external_work, 1e-7 * a.external_work);
       EXPECT_NEAR(b.energy_balance, 0, 1e-7 * a.external_work);
-      // Of the guess itself nothing is taken off either.
+      // The record of the guess itself contains no work either, so its balance
+      // is its elastic energy.
       const StepRecord &first = with.recorder().records.front();
       EXPECT_GT(first.elastic_energy, 0.1);
       EXPECT_EQ(first.energy_balance, first.elastic_energy);
     }
 }
 
-// Nor do forces that depend on the displacement act at the guess: springs whose
-// stiffness changes, and a pressure that is there from the start.
+// Forces that depend on the displacement do no work at the guess either:
+// springs whose stiffness changes, and a pressure that acts from the start.
 TEST(Statics, ForcesAtAGuessDoNoWork)
 {
   const std::string body = box_mesh("1, 1, 1", "2, 2, 2") + material_text(1e3) +
@@ -185,7 +187,7 @@ TEST(Statics, ForcesAtAGuessDoNoWork)
     const StepRecord &a = without.recorder().steps.back(),
                      &b = with.recorder().steps.back();
     EXPECT_NEAR(b.external_work, a.external_work, 1e-7 * a.external_work);
-    // Linear bodies take up what forces do, to the solver's tolerance.
+    // Linear bodies store the work of forces, to the solver's tolerance.
     if (is_linear)
       {
         EXPECT_NEAR(b.energy_balance, 0, 1e-7 * a.external_work);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Loads that begin to act in steps that waves cross several cells in. The
-// accelerations at the start are those of the nodes that the loads act on: a
-// displacement with these is far beyond what neighbours allow, and inverts
-// cells.
+// Loads that begin suddenly, in steps in which waves cross several cells.
+// Accelerations at the start are those of the loaded nodes only: a guess with
+// them moves these nodes far beyond their neighbours, and inverts cells.
 
 #include <gtest/gtest.h>
 
@@ -17,8 +16,9 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Wilson's method, that of another test, makes too much of such loads by
-  // itself: it extrapolates the acceleration to beyond the step.
+  // The methods to test. Wilson's method, which another test adds,
+  // overestimates such loads itself: it extrapolates the acceleration beyond
+  // the step.
   std::vector<std::string>
   methods_for_sudden_loads()
   {
@@ -38,18 +38,18 @@ INSTANTIATE_TEST_SUITE_P(Integrators,
                            return letters_and_digits(info.param);
                          });
 
-// A pressure of a twentieth of Young's modulus on one side of a cube, whose
-// waves need 0.027 s from side to side: it is compressed by some 5 % to and
-// fro, never by 15, in as few iterations as other steps take. From the guess
-// with the accelerations no step of Newmark's method converged, or to inverted
+// A pressure of a twentieth of Young's modulus on one side of a cube, which
+// waves cross in 0.027 s: the cube is compressed by some 5 % back and forth,
+// never by 15 %, in as few iterations as in other steps. From a guess with the
+// accelerations no step of Newmark's method converged, or only to inverted
 // cells.
 TEST_P(SuddenLoads, CompressABlock)
 {
   for (const std::string law : {"corotational", "neo-Hookean"})
     for (const double step : {0.02, 0.1})
       {
-        // Later long steps of Newmark's method, which keeps waves that it does
-        // not resolve, depend on round-off.
+        // Later long steps of Newmark's method, which does not damp waves that
+        // it cannot resolve, depend on round-off.
         const unsigned int n_steps = step < 0.05 ? 5 : 1;
         CompleteRun run(box_mesh("1, 1, 1", "4, 4, 4") + element_text(2) +
                         material_text(1e6, 0.3, 1000) + material_type(law) +
@@ -68,9 +68,9 @@ TEST_P(SuddenLoads, CompressABlock)
       }
 }
 
-// A cube that is let go from a state whose waves cross several cells in a step.
-// Its energy stays or is damped, but for some percent; from the guess with the
-// accelerations Newmark's method made forty times as much of it.
+// A cube is released from a state whose waves cross several cells in a step.
+// Its energy stays constant or decreases, up to some percent; from a guess with
+// the accelerations Newmark's method multiplied it by forty.
 TEST_P(SuddenLoads, LetGoFromWaves)
 {
   for (const std::string law : {"corotational", "neo-Hookean"})

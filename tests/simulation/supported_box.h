@@ -10,7 +10,7 @@
 
 namespace corotet::tests
 {
-  /// A box of E, nu = 0, rho = 1 with tight tolerances.
+  /// A box with Young's modulus E, nu = 0 and rho = 1, with tight tolerances.
   inline std::string
   supported_box(const std::string &size,
                 const std::string &cells,
@@ -28,7 +28,7 @@ namespace corotet::tests
     return run.recorder().records.back();
   }
 
-  /// Mean displacement over the nodes; all move alike in these tests.
+  /// The mean displacement of all nodes, which move alike in these tests.
   inline double
   mean_displacement(const CompleteRun &run, const unsigned int component)
   {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The rigid motions that supports leave to a body, in words, for cases that can
-// be told by looking at them; statics refuses them, and a singular matrix that
-// is met all the same is met once.
+// The words for rigid motions that supports leave free, in cases that are easy
+// to see. Statics refuses them; a singular matrix that occurs nevertheless is
+// factorised only once.
 
 #include <corotet/discretization/rigid_motions.h>
 
@@ -26,8 +26,9 @@ namespace
     return fixed(held) + displacements(displacement);
   }
 
-  // The unit cube and one that is shifted, with vertices in common where they
-  // meet. Its region is 'second', its boundaries 'second x-min' and so on.
+  // The unit cube and a shifted copy, with common vertices where they meet. The
+  // region of the copy is 'second', its boundaries are 'second x-min' and so
+  // on.
   SerialMesh
   two_cubes(const dealii::Tensor<1, 3> &shift)
   {
@@ -105,7 +106,7 @@ TEST(Supports, OneBody)
     }
 }
 
-// Bodies that have an edge or a vertex in common are one.
+// Bodies with a common edge or vertex count as one.
 TEST(Supports, UnconnectedParts)
 {
   const auto found = [](const dealii::Tensor<1, 3> &shift) {
@@ -121,8 +122,8 @@ TEST(Supports, UnconnectedParts)
     EXPECT_EQ(found(dealii::Tensor<1, 3>({1., 1., z})), "");
 }
 
-// What hangs at an edge or a vertex only turns about it; with a further support
-// it does not. Other bodies are told apart by their place.
+// A part that is attached at an edge or a vertex can only rotate about it; a
+// further support prevents that. Other parts are named by their position.
 TEST(Supports, SeveralParts)
 {
   const auto found = [](const dealii::Tensor<1, 3> &shift,
@@ -153,9 +154,9 @@ TEST(Supports, SeveralParts)
             "the axis through (1.5, 1, 1.5) along (0.7071, 0, 0.7071)");
 }
 
-// Numbers of a body with the radius 2: a screw whose rotation by a radian,
-// which moves what is at that distance by 2 m, comes with a translation of 1 m;
-// and directions that are none of the axes.
+// Descriptions for a body of radius 2: a screw with a translation of 1 m per
+// radian, which moves points at that radius by 2 m; and directions that are not
+// along axes.
 TEST(Supports, Words)
 {
   const dealii::Point<3> centre(1, 0, 0);
@@ -164,12 +165,13 @@ TEST(Supports, Words)
             "along it by 1 m per radian");
   EXPECT_EQ(describe({{{1., 1., 0., 0., 0., 0.}}}, centre, 2.),
             "move along (0.7071, 0.7071, 0)");
-  // About the line x = 3, y = 0.
+  // A rotation about the line x = 3, y = 0.
   EXPECT_EQ(describe({{{0., -1., 0., 0., 0., 1.}}}, centre, 2.),
             "rotate about the axis through (3, 0, 0) along z");
 }
 
-// Also where the loads are in balance. In dynamics a body may fly.
+// Statics needs supports also where the loads are balanced. In dynamics a body
+// may be free.
 TEST(Supports, AreNeededInStatics)
 {
   const auto refused = [](const std::string &type) {
@@ -186,7 +188,7 @@ TEST(Supports, AreNeededInStatics)
   EXPECT_EQ(refused("Newmark"), "nothing was refused");
 }
 
-// Shorter load steps would have the same matrix: it is factorised once.
+// Shorter load steps would have the same matrix, so it is factorised only once.
 TEST(Supports, SingularMatrixEndsStatics)
 {
   for (const std::string law : {"linear", "corotational"})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Loads so small, on a body so thin, that its forces could be round-off: they
-// are not, and bend it as they bend a linear one.
+// Loads so small, on bodies so thin, that forces could be round-off: they are
+// not, and bend the body like a linear one.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A steel strip of a thickness of 1 mm and 1 m long.
+  // A steel strip, 1 mm thick and 1 m long.
   const std::string strip =
     box_mesh("1, 0.01, 0.001", "20, 1, 1") + fixed("x-min");
 
@@ -25,10 +25,10 @@ namespace
     material_type("neo-Hookean")};
 } // namespace
 
-// Ten millionths of a newton at the tip in twenty steps: less in each than what
-// round-off of rotations can make of the forces of such flat cells, but does
-// not. All laws give the deflection of the linear one, whose strains of 1e-8
-// and rotations of 1e-5 are all that they differ by.
+// 1e-5 N at the tip in twenty steps: in each step less than the possible, but
+// not the actual, round-off of rotations in the forces of such flat cells. All
+// laws give the deflection of the linear one, as strains are 1e-8 and rotations
+// 1e-5.
 TEST(TinyLoads, BendAThinStrip)
 {
   const std::string load =
@@ -50,8 +50,8 @@ TEST(TinyLoads, BendAThinStrip)
     }
 }
 
-// A tenth of that load, all at once, in implicit steps. Tolerances of solvers,
-// which are of all forces, leave some 1e-5 of the displacement.
+// A tenth of that load, all at once, in implicit steps. Tolerances of solvers
+// are relative to all forces and leave some 1e-5 of the displacement.
 TEST(TinyLoads, MoveAThinStrip)
 {
   for (const std::string method : {"BDF2", "backward Euler", "Newmark"})
@@ -74,8 +74,8 @@ TEST(TinyLoads, MoveAThinStrip)
     }
 }
 
-// A load of a short while, and hundreds of steps after it: what is left becomes
-// smaller in each, until no products of it are numbers. That is rest, and no
+// A short load, and hundreds of steps after it: the motion decreases in each,
+// until products of its values underflow to zero. That is rest, and not a
 // failure.
 TEST(TinyLoads, ComeToRest)
 {
@@ -88,7 +88,7 @@ TEST(TinyLoads, ComeToRest)
         section("Time integration",
                 {section("static", {{"Proportional loading", false}})}));
       ASSERT_EQ(at_rest.run(), "") << law.name;
-      // Of laws with round-off of rotations that remains.
+      // With rotations a displacement of their round-off remains.
       EXPECT_LT(at_rest.recorder().steps.back().max_displacement,
                 law.name == "linear" ? 1e-100 : 1e-15)
         << law.name;
@@ -96,7 +96,8 @@ TEST(TinyLoads, ComeToRest)
   for (const std::string method : {"backward Euler", "BDF2"})
     for (const std::string law : {"linear", "corotational"})
       {
-        // Steps of many periods leave less than a thousandth each.
+        // Each step covers many periods and leaves less than a thousandth of
+        // the motion.
         CompleteRun damped(body + material_type(law) +
                            time_integration(method, 20000, 100) +
                            initial_conditions("0; 0; 0", "0; 0; x"));

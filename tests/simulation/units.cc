@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Any units: a body whose length, modulus, density and loads are multiplied by
-// powers of two moves as before, but for the units. Such factors change
-// exponents of numbers and round nothing, so results are the same to the last
-// bit, as long as no number leaves its range; even powers, as there are square
-// roots of these quantities. Stiffnesses and forces go beyond single precision.
+// Results in any units: a body whose length, modulus, density and loads are
+// multiplied by powers of two moves as before, but for the units. Such factors
+// change only exponents of numbers, without rounding, so results are the same
+// to the last bit, as long as no number leaves its range; powers are even, as
+// square roots of these quantities occur. Stiffnesses and forces exceed the
+// range of single precision.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -20,7 +21,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Powers of two: of metres, pascals and kg/m^3.
+  // Exponents of two for units of length [m], modulus [Pa] and density
+  // [kg/m^3].
   struct Units
   {
     int length  = 0;
@@ -34,8 +36,8 @@ namespace
     }
   };
 
-  // 1e-9 m and small forces; matrices of 1e-42 and of 1e42 N/m, forces of 1e-72
-  // and of 1e60 N.
+  // Bodies of 1e-9 m with small forces; with matrices of 1e-42 and of 1e42 N/m,
+  // and forces of 1e-72 and of 1e60 N.
   const std::vector<Units> all_units = {{-30, 40, 10},
                                         {-50, -90, 20},
                                         {60, 80, -20}};
@@ -59,7 +61,7 @@ namespace
                             {{"Coarse solver", coarse_solver}})});
   }
 
-  // At the end, in these units.
+  // The displacement at the end, in these units.
   std::vector<double>
   displacement(const std::string &text, const Units &units)
   {
@@ -119,7 +121,7 @@ TEST(Units, ImplicitDynamics)
         degree, "corotational", coarse_solver, "consistent", "Newmark", 1, 3);
 }
 
-// The stable step is the program's choice, from the largest frequency.
+// The program chooses the stable step, from the largest frequency.
 TEST(Units, ExplicitDynamics)
 {
   for (const std::string mass : {"diagonal scaling", "consistent"})
@@ -127,8 +129,8 @@ TEST(Units, ExplicitDynamics)
       1, "corotational", "direct", mass, "central difference", 0, 3);
 }
 
-// Eigenvalues are exact to the square of the tolerance of the residuals, 1e-8,
-// or round-off of the matrices: the search's decisions depend on it.
+// Eigenvalues are exact to the square of the tolerance of residuals, 1e-8, or
+// to round-off of the matrices, on which decisions of the search depend.
 TEST(Units, Modes)
 {
   for (const unsigned int degree : {1u, 2u, 3u})

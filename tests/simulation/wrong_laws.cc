@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Laws of other programs whose members contradict each other run, but the log
-// says so.
+// Laws that a program adds and whose functions contradict each other are used,
+// but the log warns of them.
 
 #include <corotet/laws/law_kind.h>
 #include <corotet/laws/linear.h>
@@ -17,7 +17,8 @@ using dealii::Tensor;
 
 namespace
 {
-  // Linear elasticity, with other terms where it is not at rest.
+  // A law that is linear elasticity at rest, with wrong energy or derivative
+  // elsewhere.
   class Wrong : public PointLaw
   {
   public:

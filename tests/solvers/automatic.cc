@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The automatic choice: p-multigrid where cells are well shaped, a sparse
-// factorisation where that is the faster way, at once or in the middle of a
-// solve; and back again.
+// The automatic choice of a preconditioner: p-multigrid where cells are well
+// shaped, a sparse factorisation where that is faster, from the start or in the
+// middle of a solve; and the change back.
 
 #include <corotet/solvers/automatic.h>
 #include <corotet/solvers/linear_solver.h>
@@ -20,8 +20,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A body and what solves it: a multigrid that is slow on thin bodies, as it
-  // is without the rotations of their vertices.
+  // A body and its solver. The multigrid is without rotations of vertices,
+  // which makes it slow on thin bodies.
   struct Case : public ClampedBody
   {
     Case(const std::string &size,
@@ -58,8 +58,8 @@ namespace
     return parameters;
   }
 
-  // One layer of cells that are flat by 12; on several ranks, where iterations
-  // cost less beside a factorisation, by 20.
+  // The size of one layer of cells that are flat by 12; on several ranks, where
+  // iterations cost less relative to a factorisation, by 20.
   std::string
   thin_size()
   {
@@ -74,11 +74,12 @@ namespace
 class Automatic : public testing::TestWithParam<unsigned int>
 {};
 
-// Degree 1 is factorised by the multigrid, too.
+// For degree 1 the multigrid itself is a factorisation, so degrees are higher.
 class AutomaticAboveDegree1 : public Automatic
 {};
 
-// Nothing but the multigrid, to the last bit.
+// For well shaped cells only the multigrid is used, with results equal to the
+// last bit.
 TEST_P(Automatic, LeavesWellShapedBodiesToMultigrid)
 {
   Case automatic("4, 1, 1", "8, 2, 2", GetParam(), "automatic");
@@ -92,8 +93,9 @@ TEST_P(Automatic, LeavesWellShapedBodiesToMultigrid)
   EXPECT_EQ(automatic.solver.preconditioner_builds(), 1u);
 }
 
-// The first solve gives up the multigrid and goes on; later ones need no more
-// than what round-off of an ill-conditioned matrix asks for.
+// The first solve gives up the multigrid and goes on with factors; later ones
+// need only the few iterations that the round-off of an ill-conditioned matrix
+// causes.
 TEST_P(AutomaticAboveDegree1, FactorisesThinBodies)
 {
   Case automatic(thin_size(), thin_cells, GetParam(), "automatic");
@@ -104,15 +106,15 @@ TEST_P(AutomaticAboveDegree1, FactorisesThinBodies)
   EXPECT_NE(automatic.solver.take_news().find("a sparse factorisation"),
             std::string::npos);
   EXPECT_EQ(automatic.solver.take_news(), "");
-  // The condition number of the plate is below 1e9, so that a residual of 1e-10
-  // leaves errors of some percent at most in what is the smallest part of the
-  // solution, and far less here.
+  // The condition number of the plate is below 1e9, so a residual of 1e-10
+  // allows errors of some percent in the smallest components of the solution;
+  // they are far less here.
   EXPECT_LT(largest_difference(automatic.x, multigrid.x),
             1e-5 * multigrid.x.linfty_norm());
   EXPECT_LE(automatic.solve(), 3u);
 }
 
-// So flat that nobody tries.
+// The cells are so flat that the multigrid is not even tried.
 TEST_P(AutomaticAboveDegree1, FactorisesVeryFlatCellsAtOnce)
 {
   Case automatic("1, 1, 0.005", thin_cells, GetParam(), "automatic");
@@ -123,8 +125,8 @@ TEST_P(AutomaticAboveDegree1, FactorisesVeryFlatCellsAtOnce)
     << news;
 }
 
-// With rotations the multigrid is fast enough for a thin body of degree 2, and
-// what is expected of it is less.
+// With rotations of the vertices the multigrid is fast enough for a thin body
+// of degree 2, and so fewer iterations are expected of it.
 TEST(AutomaticWithRotations, LeavesThinBodiesToMultigrid)
 {
   Case automatic(thin_size(), thin_cells, 2, "automatic", "automatic");
@@ -143,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(Degrees,
 
 namespace
 {
-  // A preconditioner that has changed to factors.
+  // Makes the preconditioner change to factors.
   void
   make_it_change(AutomaticPreconditioner &P, Case &c)
   {
@@ -157,7 +159,8 @@ namespace
   }
 } // namespace
 
-// Solves that are slow, each of them less than what a factorisation is worth.
+// Each of these slow solves costs less than a factorisation, but together they
+// cost as much.
 TEST(AutomaticDecisions, SlowSolvesAddUp)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");
@@ -172,8 +175,8 @@ TEST(AutomaticDecisions, SlowSolvesAddUp)
   EXPECT_EQ(P.patience(true, false), 30u);
 }
 
-// Factors that are outdated again and again. They are tried again, each time
-// twice as late.
+// Factors that are outdated again and again are given up; they are tried again,
+// each time twice as late.
 TEST(AutomaticDecisions, MultigridComesBack)
 {
   Case                    c(thin_size(), thin_cells, 3, "automatic");
@@ -188,7 +191,7 @@ TEST(AutomaticDecisions, MultigridComesBack)
   EXPECT_NE(P.take_news().find("p-multigrid again"), std::string::npos);
   const Vector &displacement = c.displacement();
   P.build(c.A, displacement);
-  // What the multigrid does.
+  // The preconditioner must now do what the multigrid does.
   PMultigrid multigrid(slow_multigrid());
   multigrid.build(c.A, displacement);
   Vector expected(c.b), found(c.b);
@@ -203,9 +206,9 @@ TEST(AutomaticDecisions, MultigridComesBack)
             std::string::npos);
   EXPECT_FALSE(P.take_note(2, true));
   EXPECT_FALSE(P.take_note(2, false));
-  // The multigrid's two solves took less than this in the mean, and an
-  // iteration with factors costs more than one of it: after ten solves with
-  // these at the latest it is known.
+  // The mean cost of the multigrid's two solves was less than that of these,
+  // and an iteration with factors costs more than one of the multigrid: after
+  // ten solves at the latest, factors are known to be slower.
   is_back = false;
   for (int solve = 2; solve < 10 && !is_back; ++solve)
     is_back = P.take_note(patience, true);
@@ -213,7 +216,7 @@ TEST(AutomaticDecisions, MultigridComesBack)
   EXPECT_GE(P.patience(true, false), 2 * (patience - 30));
 }
 
-// Also where nobody has tried the multigrid: then what was expected of it
+// The multigrid also comes back where it was not tried: then its expected cost
 // counts.
 TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
 {
@@ -228,7 +231,7 @@ TEST(AutomaticDecisions, MultigridComesBackWhereItWasNotTried)
   EXPECT_TRUE(is_back);
 }
 
-// Factors that last are kept.
+// Factors that stay good are kept.
 TEST(AutomaticDecisions, FactorsStay)
 {
   Case                    c(thin_size(), thin_cells, 3, "automatic");
@@ -239,10 +242,10 @@ TEST(AutomaticDecisions, FactorsStay)
     EXPECT_FALSE(P.take_note(4, false)) << solve;
 }
 
-// A slow solve with an exact tangent may fail as that is indefinite. Where
-// cells are well shaped it changes nothing, and when such solves that have come
-// to their end have cost as much in vain, factors are those of the frozen
-// matrix.
+// A slow solve with an exact tangent may fail because the tangent is
+// indefinite. Where cells are well shaped, it alone changes nothing; but when
+// such solves that did converge have wasted as much as a factorisation costs,
+// the frozen matrix is factorised.
 TEST(AutomaticDecisions, SlowTangentsOfWellShapedBodies)
 {
   Case                    c("1, 1, 0.25", thin_cells, 2, "automatic");
@@ -278,8 +281,8 @@ TEST(AutomaticDecisions, SlowTangentsOfFlatCells)
   EXPECT_EQ(P.patience(true, true), P.patience(true, false));
 }
 
-// Factors are not judged by the first solves of a step, which are the hardest;
-// but these may not take any number of iterations.
+// Factors are not judged by the first solves of a step, which are the hardest,
+// unless these take very many iterations.
 TEST(AutomaticDecisions, FactorsHaveATrial)
 {
   Case                    c(thin_size(), thin_cells, 3, "automatic");
@@ -294,7 +297,8 @@ TEST(AutomaticDecisions, FactorsHaveATrial)
   EXPECT_TRUE(Q.take_note(10000, true));
 }
 
-// A solve with older factors gets new ones when it has cost as much as these.
+// A solve with old factors gets new ones when it has cost as much as a
+// factorisation.
 TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
 {
   Case                    c(thin_size(), thin_cells, 3, "automatic");
@@ -308,7 +312,8 @@ TEST(AutomaticDecisions, OldFactorsAreMadeAnew)
   EXPECT_GT(P.patience(true, false), 1000000u);
 }
 
-// From a checkpoint: the same decisions, and the same kind of preconditioner.
+// After a restart from a checkpoint, decisions and the kind of preconditioner
+// are the same.
 TEST(AutomaticDecisions, Restart)
 {
   Case                    c(thin_size(), thin_cells, 2, "automatic");

@@ -13,7 +13,7 @@
 namespace corotet::tests
 {
   /// A box that is clamped where x is smallest, its stiffness A, and a load b
-  /// of one along z at each node.
+  /// with the value one along z at each node.
   struct ClampedBody
   {
     /// @p entries of a parameter file.
@@ -50,7 +50,8 @@ namespace corotet::tests
     Vector            b;
   };
 
-  /// Of conjugate gradients to 1e-8.
+  /// The number of iterations of conjugate gradients until the residual is 1e-8
+  /// of the load.
   template <typename Inverse>
   unsigned int
   iterations(const ClampedBody &body, const Inverse &inverse)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Conjugate gradients with two sums an iteration against deal.II's, and where
-// the norm that they know in advance would be one of round-off.
+// Conjugate gradients with two global sums per iteration, compared with
+// deal.II's, and where the norm computed in advance would be only round-off.
 
 #include <corotet/solvers/conjugate_gradients.h>
 
@@ -17,7 +17,7 @@ using namespace corotet;
 
 namespace
 {
-  /// Every rank has 50 entries.
+  /// A vector with 50 entries on each rank.
   Vector
   some_vector()
   {
@@ -33,7 +33,7 @@ namespace
     return result;
   }
 
-  /// Diagonal, with the entries offset + i^2.
+  /// A diagonal matrix with the entries offset + i^2.
   struct Matrix
   {
     double offset;
@@ -64,7 +64,7 @@ namespace
     void
     vmult_with_norm(Vector &dst, const Vector &src, const double norm) const
     {
-      // The norm is that of the source to all digits but a few.
+      // The norm given in advance is that of the source, up to a few digits.
       EXPECT_NEAR(norm, corotet::norm(src), 1e-9 * norm);
       vmult(dst, src);
     }
@@ -85,7 +85,7 @@ TEST(ConjugateGradients, AreThoseOfDealii)
       cg.solve(Matrix{1}, expected, b, Scaling());
       EXPECT_TRUE(ConjugateGradients(control, nobody, true)
                     .solve(Matrix{1}, x, b, Scaling()));
-      // Round-off may make one more or less of them.
+      // Round-off may change the number of iterations by one.
       EXPECT_NEAR(control.last_step(), reference.last_step(), 1);
       EXPECT_GT(control.last_step(), 20u);
       x -= expected;
@@ -117,7 +117,7 @@ TEST(ConjugateGradients, FailureIsThrown)
     dealii::SolverControl::NoConvergence);
 }
 
-// One rank is enough.
+// A single rank that asks to stop is enough to stop all.
 TEST(ConjugateGradients, StopWhenAskedTo)
 {
   const Vector          b = some_vector();
@@ -137,8 +137,8 @@ TEST(ConjugateGradients, StopWhenAskedTo)
   EXPECT_EQ(n, 6u);
 }
 
-// Steps that leave a millionth of the residual and less: sums of squares would
-// have no digit of it.
+// The step leaves a small part of the residual, a millionth and less: then the
+// norm computed from sums of squares would have no correct digit.
 TEST(ConjugateGradients, NormAfterAStepThatLeavesLittle)
 {
   const Vector r = some_vector();

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Direct solvers are inverses up to round-off times the condition number; the
-// one of CHOLMOD, which every build has, equals the one called 'direct'.
+// Direct solvers are inverses up to round-off times the condition number; that
+// of CHOLMOD, which every build has, agrees with the one called 'direct'.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/direct.h>
@@ -29,8 +29,9 @@ namespace
   }
 } // namespace
 
-// Also after the numbers have changed, and from a start afresh. The condition
-// number of the beam is below 1e6, that of its inertia far below.
+// The inverse is right also after the matrix has changed, and with a new
+// solver. The condition number of the beam is below 1e6, that with inertia far
+// below.
 TEST(Direct, InvertsMatrix)
 {
   MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1),
@@ -62,7 +63,7 @@ TEST(Direct, InvertsMatrix)
     }
 }
 
-// A body that may move without resistance has no inverse.
+// A body that can move without resistance has a singular matrix.
 TEST(Direct, RefusesFreeBody)
 {
   MovingBody        body(box("4, 1, 1", "4, 1, 1", 0.1), element_text(2));

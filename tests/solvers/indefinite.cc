@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Krylov methods for consistent tangents: symmetric ones that are indefinite,
-// and those that are not symmetric.
+// Krylov methods for consistent tangents: symmetric indefinite and unsymmetric
+// ones.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ namespace
       J.update({0., u, u}, Tangent::consistent, 1., 0.);
     }
 
-    // A right hand side that supports take no part in; if it is axial, it does
-    // not bend the bar at first.
+    // A right hand side that is zero at supports; if it is axial, it does not
+    // bend the bar at first.
     Vector
     load(const bool axial) const
     {
@@ -65,7 +65,7 @@ namespace
     {
       Vector       x;
       unsigned int iterations;
-      /// |b - J x| / |b|.
+      /// The relative residual |b - J x| / |b|.
       double residual;
     };
 
@@ -84,7 +84,7 @@ namespace
       return solution;
     }
 
-    // v . J v / |v| |J v| of the shape in which a column buckles.
+    // v . J v / |v| |J v| for the shape v in which a column buckles.
     double
     buckling_curvature() const
     {
@@ -121,15 +121,15 @@ namespace
 class Indefinite : public testing::TestWithParam<std::string>
 {};
 
-// Far beyond the load at which it buckles, the bar's energy has directions
-// downwards. All methods come to the same solution; its residual is computed
-// apart from them. By itself the solver starts with conjugate gradients and
+// Far beyond the buckling load, the bar's tangent has directions of negative
+// curvature. All methods find the same solution; its residual is computed
+// independently. The method "automatic" starts with conjugate gradients and
 // goes on with MINRES.
 TEST_P(Indefinite, AllMethodsAgree)
 {
   for (const std::string &preconditioner : preconditioner_names())
     {
-      // Its thousands of iterations say nothing new.
+      // Jacobi needs thousands of iterations and tests nothing new.
       if (preconditioner == "jacobi")
         continue;
       Vector expected;
@@ -156,8 +156,8 @@ TEST_P(Indefinite, AllMethodsAgree)
     }
 }
 
-// Where negative curvature comes late, MINRES starts from what conjugate
-// gradients have reached.
+// Where negative curvature is found late, MINRES starts from the solution that
+// conjugate gradients have reached.
 TEST_P(Indefinite, MinresGoesOn)
 {
   Vector expected;
@@ -175,7 +175,8 @@ TEST_P(Indefinite, MinresGoesOn)
         expected = solution.x;
       const double difference = largest_difference(solution.x, expected);
       EXPECT_LE(difference, 1e-5 * expected.linfty_norm());
-      // Had it been MINRES from the start, every digit would be the same.
+      // If "automatic" had used MINRES from the start, every digit would be
+      // equal.
       EXPECT_EQ(difference > 0, automatic);
     }
 }
@@ -185,7 +186,8 @@ INSTANTIATE_TEST_SUITE_P(Rotations,
                          testing::Values("quadrature points",
                                          "cell centre, variational"));
 
-// One rotation per cell above degree 1: GMRES, also where the solver chooses.
+// With one rotation per cell above degree 1 the tangent is unsymmetric: GMRES
+// is used, also by "automatic".
 TEST(Unsymmetric, Gmres)
 {
   Vector expected;
@@ -203,7 +205,8 @@ TEST(Unsymmetric, Gmres)
     }
 }
 
-// A positive tangent stays with conjugate gradients: the iterations are theirs.
+// With a positive tangent "automatic" uses conjugate gradients to the end: the
+// numbers of iterations are equal.
 TEST(Positive, ConjugateGradientsGoOn)
 {
   unsigned int iterations[2];
@@ -221,8 +224,8 @@ TEST(Positive, ConjugateGradientsGoOn)
   EXPECT_EQ(iterations[0], iterations[1]);
 }
 
-// Methods and operators that do not fit are refused before anything is
-// computed.
+// Methods and operators that do not fit the tangent are refused before anything
+// is computed.
 TEST(Unsymmetric, Refusals)
 {
   const std::string not_symmetric =

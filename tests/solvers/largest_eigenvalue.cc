@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The largest eigenvalue of a tridiagonal matrix, whatever its size is.
+// The largest eigenvalue of a tridiagonal matrix, whatever its scale is.
 
 #include <corotet/solvers/largest_eigenvalue.h>
 
@@ -11,10 +11,10 @@
 
 using namespace corotet;
 
-// That of n masses between n + 1 springs of the same stiffness k, K = k tridiag
-// (-1, 2, -1): 2 k (1 - cos(n pi / (n + 1))), with entries sin(n j pi / (n +
-// 1)) of the eigenvector, whose norm is sqrt((n + 1) / 2). LAPACK is asked for
-// 1e-6 of the sum of all entries.
+// n masses between n + 1 springs of the same stiffness k have K = k tridiag
+// (-1, 2, -1), with the largest eigenvalue 2 k (1 - cos(n pi / (n + 1))) and
+// the eigenvector sin(n j pi / (n + 1)), whose norm is sqrt((n + 1) / 2).
+// LAPACK is asked for 1e-6 of the sum of all entries.
 TEST(LargestEigenvalue, OfTridiagonal)
 {
   for (const unsigned int n : {1u, 2u, 5u, 20u})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Every preconditioner leads conjugate gradients to the same solution, on one
-// rank and on two, and to round-off of the required residual.
+// With every preconditioner conjugate gradients find the same solution, on one
+// rank and on two, up to the required residual and its round-off.
 
 #include <gtest/gtest.h>
 
@@ -18,8 +18,8 @@ using dealii::Tensor;
 class PreconditionerTest : public testing::TestWithParam<std::string>
 {};
 
-// A clamped beam, statics (the ill-conditioned case), all degrees. The residual
-// is computed by the matrix itself; the tolerance is what was asked for.
+// A clamped beam in statics (the ill-conditioned case), for all degrees. The
+// residual is computed with the matrix; the tolerance is the one given.
 TEST_P(PreconditionerTest, SolvesClampedBeam)
 {
   for (const unsigned int degree : {1, 2, 3})
@@ -56,13 +56,13 @@ TEST_P(PreconditionerTest, SolvesClampedBeam)
     }
 }
 
-// The list itself is the parameter: a newcomer is tested without an edit.
+// All registered preconditioners are tested, also ones added later.
 INSTANTIATE_TEST_SUITE_P(All,
                          PreconditionerTest,
                          testing::ValuesIn(preconditioner_names()));
 
 // Both Krylov methods, matrix-free or with the assembled matrix, solve the same
-// system; the true residual is the one that was asked for, up to its round-off.
+// system; the true residual meets the tolerance up to its round-off.
 TEST(LinearSolver, MethodsAndOperators)
 {
   for (const std::string method : {"conjugate gradients", "gmres"})
@@ -128,7 +128,7 @@ TEST(LinearSolver, FailureIsClear)
 
 namespace
 {
-  // A preconditioner of another program: a multiple of the identity.
+  // A preconditioner that a program adds: a multiple of the identity.
   class Multiple : public Preconditioner
   {
   public:
@@ -157,8 +157,8 @@ namespace
   };
 } // namespace
 
-// A preconditioner that a program adds to the library's is selected like these.
-// Conjugate gradients do not see its factor, a power of two, at all.
+// A preconditioner that a program adds is selected like those of the library.
+// Its factor, a power of two, does not change conjugate gradients at all.
 TEST(LinearSolver, PreconditionerOfAnotherProgram)
 {
   const AddedCandidate<Preconditioner> multiple(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Vectors side by side keep what Anasazi demands of them, by its own test, and
-// calculate what single vectors do.
+// Blocks of vectors meet Anasazi's requirements, by its own test, and give the
+// same results as single vectors.
 
 #include <corotet/solvers/anasazi_adapter.h>
 
@@ -20,8 +20,9 @@ using namespace corotet;
 
 namespace
 {
-  // More owned entries than are worked on at a time, and no multiple of the
-  // numbers of those that are added side by side. Every seventh is no unknown.
+  // More owned entries than are processed at a time, and no multiple of the
+  // number of entries that are summed together. Every seventh entry is no
+  // unknown.
   constexpr unsigned int n_owned = 1237;
 
   std::shared_ptr<VectorSpace>
@@ -50,7 +51,7 @@ namespace
     }
   };
 
-  /// Largest difference of owned entries, over all ranks.
+  /// The largest difference of owned entries over all ranks.
   double
   difference(const Vector &x, const Vector &y)
   {
@@ -73,7 +74,8 @@ TEST(MultiVector, PassesAnasazisTest)
     output, any, op)));
 }
 
-// Sums of a thousand products of size one, in another order.
+// Tolerances are those of sums of a thousand products of size one, in another
+// order.
 TEST(MultiVector, CalculatesAsVectorsDo)
 {
   const auto  space = make_space();
@@ -83,7 +85,8 @@ TEST(MultiVector, CalculatesAsVectorsDo)
   C.set_random();
   const MultiVector   before = C.copy();
   std::vector<double> numbers(8 * 3, 0.);
-  // Columns of the small matrix are farther apart than they are long.
+  // The leading dimension of the small matrix is larger than its number of
+  // rows.
   const DenseView<double> M{numbers.data(), 7, 3, 8};
   MultiVector::products(M, -2., A, B);
   for (unsigned int j = 0; j < 3; ++j)
@@ -110,7 +113,7 @@ TEST(MultiVector, CalculatesAsVectorsDo)
     }
 }
 
-// Numbers that count for nothing may be no numbers.
+// Vectors that are multiplied by zero may hold values that are not numbers.
 TEST(MultiVector, OverwritesAnything)
 {
   const auto  space = make_space();
@@ -126,8 +129,8 @@ TEST(MultiVector, OverwritesAnything)
   EXPECT_EQ(difference(D[0], A[0]), 0.);
 }
 
-// A view writes into the columns of which it is one, a copy does not; what is
-// no unknown stays zero.
+// A view writes into its columns of the original, a copy does not; entries that
+// are no unknowns stay zero.
 TEST(MultiVector, ViewsAndCopies)
 {
   const auto  space = make_space();
@@ -143,7 +146,8 @@ TEST(MultiVector, ViewsAndCopies)
   A.set_random();
   for (unsigned int i = 0; i < n_owned; i += 7)
     EXPECT_EQ(A[0].local_element(i), 0.);
-  // A square has the mean 1/3, with a deviation of 0.3 / sqrt(n).
+  // The mean of squares of the random entries is 1/3, with a deviation of 0.3 /
+  // sqrt(n).
   const double n = space->dimension;
   EXPECT_EQ(n,
             (n_owned - (n_owned + 6) / 7) *

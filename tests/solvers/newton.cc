@@ -26,7 +26,7 @@ TEST(Newton, QuadraticConvergence)
   EXPECT_NEAR(report.observed_order(), 2, 0.1);
 }
 
-// The slope of the secant through the last two points: order 1.618.
+// With the slope of the secant through the last two points the order is 1.618.
 TEST(Newton, OrderOfTheSecantMethod)
 {
   double             last_x = 2.1, last_f = last_x * last_x - 2;
@@ -45,8 +45,8 @@ TEST(Newton, OrderOfTheSecantMethod)
   EXPECT_NEAR(report.observed_order(), 1.62, 0.15);
 }
 
-// Linear convergence has order 1; one that does not even halve the increments
-// has none, and neither have two iterations or shortened ones.
+// Linear convergence has order 1. The order is undefined if increments are not
+// even halved, for only two iterations, and if steps were shortened.
 TEST(Newton, OrderOfLinearConvergence)
 {
   const auto order = [](const double slope) {
@@ -63,7 +63,7 @@ TEST(Newton, OrderOfLinearConvergence)
   EXPECT_TRUE(std::isnan(report.observed_order()));
   report.history.push_back({1e-12, 1e-8, 1., false, 1});
   EXPECT_NEAR(report.observed_order(), 2, 1e-12);
-  // Increments that are round-off do not count.
+  // Increments of the size of round-off do not count for the order.
   report.history.push_back({1e-16, 1e-16, 1., false, 1});
   EXPECT_NEAR(report.observed_order(), 2, 1e-12);
   report.history[1].length = 0.5;
@@ -90,10 +90,10 @@ TEST(Newton, TextOfTheReport)
             "1.0e-08; increment 1.0e-02 1.0e-04 1.0e-08; order 2.00");
 }
 
-// A solve tells the next one how many iterations there will be: linear solves
-// before the last one need a small part of what quadratic convergence will
-// leave. The first solve and all iterations from that number on get the full
-// tolerance.
+// A solve tells the next one how many iterations to expect: each linear solve
+// before the last one is only as accurate as a small part of what quadratic
+// convergence will leave. The first solve, and all iterations from the expected
+// last one on, get the full tolerance.
 TEST(Newton, LinearSolvesAreAsGoodAsNeeded)
 {
   NewtonParameters parameters;
@@ -118,7 +118,7 @@ TEST(Newton, LinearSolvesAreAsGoodAsNeeded)
   const std::vector<double> second = solve_from(newton, 5.);
   EXPECT_EQ(solve_from(restarted, 5.), second);
   ASSERT_EQ(second.size(), 6u);
-  // Half a digit, one, two and four of eight, and what is said to be small.
+  // Errors of half a digit, one, two and four digits of eight, times a factor.
   EXPECT_NEAR(second[0], 0.03 * std::pow(10, -0.5), 1e-15);
   EXPECT_NEAR(second[1], 0.03 * 1e-1, 1e-15);
   EXPECT_NEAR(second[2], 0.03 * 1e-2, 1e-16);
@@ -128,7 +128,7 @@ TEST(Newton, LinearSolvesAreAsGoodAsNeeded)
 }
 
 // With the slope frozen at 4 the error shrinks by |1 - f'/4| = 0.29 per
-// iteration. The estimate of the error that is left must hold what it says.
+// iteration. The estimated remaining error must be an upper bound.
 TEST(Newton, LinearConvergenceIsEstimated)
 {
   Scalar             root([](double x) { return x * x - 2; },
@@ -136,7 +136,8 @@ TEST(Newton, LinearConvergenceIsEstimated)
               1.);
   const NewtonReport report = solve(root, 1e-6);
   EXPECT_LE(std::abs(root.x - std::sqrt(2.)), 1e-6 * std::sqrt(2.));
-  // 0.29^11 < 1e-6 < 0.29^10, and the start is 0.41 away.
+  // The number of iterations follows from 0.29^11 < 1e-6 < 0.29^10, with an
+  // error of 0.41 at the start.
   EXPECT_GE(report.iterations, 9u);
   EXPECT_LE(report.iterations, 13u);
 }
@@ -151,7 +152,7 @@ TEST(Newton, LinearProblemTakesOneIteration)
   EXPECT_EQ(solve(line).iterations, 0u) << "a solved problem takes none";
 }
 
-// Once the iterations are used up, their rate is no longer a matter.
+// The failure tells how many iterations would be needed and how many are left.
 TEST(Newton, SlowConvergenceIsToldInNumbers)
 {
   Scalar slow([](double x) { return x; }, [](double) { return 50.; }, 1.);
@@ -178,13 +179,13 @@ TEST(Newton, Failures)
             "the forces are not finite in Newton iteration 0");
 }
 
-// A slender body's residual: the first full step throws it up by four orders of
-// magnitude, and full steps from there take it down at once, as the wall only
-// bends what was stretched. No search, no way back.
+// A residual like that of a slender body: the first full step raises it by two
+// orders of magnitude, and full steps from there reduce it quickly. There is no
+// line search and no way back.
 TEST(Newton, FullStepsThroughALargeResidual)
 {
-  // f is steep beyond 1: x - 1 + 1e4 (x - 1)^2 there; from -9 with slope 0.9
-  // the first step lands at 2.1.
+  // f is 0.9 (x - 1) below 1, and steep beyond: x - 1 + 1e4 (x - 1)^2. From 0
+  // with the slope 0.81 the first step lands at 1.11.
   Scalar wall(
     [](double x) {
       return x < 1 ? 0.9 * (x - 1) : x - 1 + 1e4 * (x - 1) * (x - 1);
@@ -200,9 +201,9 @@ TEST(Newton, FullStepsThroughALargeResidual)
     EXPECT_EQ(iteration.length, 1.);
 }
 
-// atan(x) from 2: full steps run away to ever larger |x|, so that the watchdog
-// returns to the start and searches, with and without an energy. With one it is
-// more patient.
+// atan(x) from 2: full steps diverge to ever larger |x|, so the watchdog
+// returns to the start and searches, with and without an energy. With an energy
+// it is more patient.
 TEST(Newton, LineSearch)
 {
   for (const auto &[start, with_energy] :
@@ -224,8 +225,8 @@ TEST(Newton, LineSearch)
     }
 }
 
-// log(x) - 1 from 10: the first full step goes to x < 0, where there is no
-// logarithm. The search backs off until there is one.
+// log(x) - 1 from 10: the first full step leads to x < 0, where there is no
+// logarithm. The search shortens the step until there is one.
 TEST(Newton, BacksOffFromWhatIsNotFinite)
 {
   for (const bool with_energy : {false, true})
@@ -238,14 +239,15 @@ TEST(Newton, BacksOffFromWhatIsNotFinite)
       EXPECT_NEAR(root.x, std::exp(1.), 1e-11);
       ASSERT_GE(report.history.size(), 1u);
       EXPECT_LT(report.history[0].length, 1.);
-      // The next try is a tenth of a step that leads nowhere.
+      // After a step to where the residual is not finite, a tenth of it is
+      // tried.
       EXPECT_GE(report.line_searches, 1u);
       EXPECT_LE(report.line_searches, 4u);
       EXPECT_NEAR(report.observed_order(), 2, 0.1);
     }
 }
 
-// One iteration, whatever the residual then is.
+// A linearly implicit solve takes one iteration, whatever the residual is then.
 TEST(Newton, LinearlyImplicit)
 {
   Scalar           root([](double x) { return x * x - 2; },

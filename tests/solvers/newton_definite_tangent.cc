@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Newton's method where the exact tangent is of no use and the definite one
-// stands in.
+// Newton's method where the exact tangent gives no descent and a definite
+// tangent replaces it.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/newton.h>
@@ -22,8 +22,8 @@ namespace
 {
   // The gradient of the energy x^4 / 4 - x^2 / 2, with a definite tangent, 1,
   // or without one. At the start the exact slope 3 x^2 - 1 is -1e-4: its
-  // direction leads up in energy, and by 3,850 to the left, where the residual
-  // is 1e11 times larger. The definite one leads down, to 1.
+  // direction leads up in energy, and 3,850 to the left, where the residual is
+  // 1e11 times larger. That of the definite tangent leads down, to 1.
   class DoubleWell : public Scalar
   {
   public:
@@ -59,10 +59,10 @@ namespace
   };
 } // namespace
 
-// With an energy a direction must lead down: where a search would have to go
-// along one that leads up, the definite tangent takes over, once, and the exact
-// one goes on from there with its order. Without a definite one there is no
-// way.
+// With an energy, a direction must be one of descent: where a search would go
+// along one of ascent, the definite tangent replaces the exact one, once; then
+// the exact one goes on with its order. Without a definite tangent the method
+// fails.
 TEST(Newton, DefiniteTangentStandsIn)
 {
   DoubleWell         double_well(true);
@@ -81,7 +81,7 @@ TEST(Newton, DefiniteTangentStandsIn)
 
 namespace
 {
-  // x^2 - 2, whose exact slope nobody can divide by in first iterations.
+  // x^2 - 2, whose exact slope cannot be used in the first iteration.
   class HardStart : public Scalar
   {
   public:
@@ -119,8 +119,9 @@ namespace
   };
 } // namespace
 
-// The exact tangent is not tried at the start where that has failed before; but
-// it is again, later each time, and a success makes it the first choice.
+// After a failure at the start of a solve, the exact tangent is not tried there
+// for some solves; the pauses get longer, and a success makes it the first
+// choice again.
 TEST(Newton, PausesOfTheExactTangent)
 {
   const NewtonParameters parameters;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Where Newton's method ends because of round-off, and of linear problems.
+// Newton's method ends at the round-off of residuals and increments, and for
+// linear problems.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +11,8 @@
 using namespace corotet;
 using namespace corotet::tests;
 
-// A residual that round-off keeps from shrinking: accepted if the problem says
-// that it is round-off, else a failure.
+// A residual that round-off keeps from shrinking is accepted if the problem
+// says that it is round-off; else it is a failure.
 TEST(Newton, RoundOffIsAccepted)
 {
   class Noisy : public Scalar
@@ -40,8 +41,8 @@ TEST(Newton, RoundOffIsAccepted)
   EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
 }
 
-// What may be round-off, and what it is not, is only taken for it where an
-// iteration has not made it smaller.
+// A residual that may be round-off or not is only taken for round-off if an
+// iteration has not reduced it.
 TEST(Newton, PossibleRoundOffIsTriedFirst)
 {
   class Doubtful : public Scalar
@@ -54,7 +55,7 @@ TEST(Newton, PossibleRoundOffIsTriedFirst)
     {
       Norm norm = Scalar::residual(r);
       norm.value += noise;
-      // More than the residual at the start.
+      // This bound of round-off is more than the residual at the start.
       norm.most_round_off = 2;
       return norm;
     }
@@ -74,7 +75,7 @@ TEST(Newton, PossibleRoundOffIsTriedFirst)
   EXPECT_NEAR(root.x, std::sqrt(2.), 1e-9);
 }
 
-// An increment that x is too coarse for is the last one, whatever the residual.
+// An increment below the round-off of x is the last one, whatever the residual.
 TEST(Newton, RoundOffOfIncrementIsTheEnd)
 {
   class Coarse : public Scalar
@@ -90,7 +91,7 @@ TEST(Newton, RoundOffOfIncrementIsTheEnd)
       return norm;
     }
   };
-  // With a residual that never falls below 1e-3.
+  // The residual does not fall below 1e-3 near the start.
   Coarse root([](double x) { return x * x - 2 + (x < 1.5 ? 1e-3 : 0.); },
               [](double x) { return 1e5 * x; },
               1.4);
@@ -100,8 +101,8 @@ TEST(Newton, RoundOffOfIncrementIsTheEnd)
   EXPECT_NEAR(report.final_residual, std::abs(root.f(root.x)), 1e-15);
 }
 
-// A linear problem is not asked for its increment: a linear solver of the same
-// tolerance leaves as much of it.
+// The increment of a linear problem is not checked: a linear solver of the same
+// tolerance leaves an error of that size.
 TEST(Newton, LinearProblemIsSolvedOnce)
 {
   class Line : public Scalar
@@ -117,7 +118,7 @@ TEST(Newton, LinearProblemIsSolvedOnce)
 
     bool linear = true;
   };
-  // The slope of an inexact solver: 2e-6 is left.
+  // The slope is off by 2e-6, like the solution of an inexact linear solver.
   for (const bool linear : {true, false})
     {
       Line line([](double x) { return 1e-4 * (x - 1e3); },

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The p-multigrid: a symmetric and positive operator whose iterations do not
-// grow with the mesh, in bent bodies, with mass, with strong contrasts, with
-// every coarse solver, on any number of ranks.
+// The p-multigrid is a symmetric and positive operator, and its numbers of
+// iterations do not grow with the mesh: in bent bodies, with mass, with strong
+// contrasts, with every coarse solver, on any number of ranks.
 
 #include <corotet/solvers/largest_eigenvalue.h>
 #include <corotet/solvers/p_multigrid.h>
@@ -51,7 +51,7 @@ namespace
                     {"Poisson's ratio", beam.poissons_ratio}});
   }
 
-  // With the coarse solvers that optional parts bring.
+  // The registered p-multigrid, which has the coarse solvers of optional parts.
   std::unique_ptr<Preconditioner>
   make_p_multigrid()
   {
@@ -64,7 +64,7 @@ namespace
   class PMultigridTest : public testing::TestWithParam<unsigned int>
   {
   protected:
-    // Iterations of conjugate gradients to 1e-8 under a load across the beam.
+    // Iterations of conjugate gradients to 1e-8 for a load across the beam.
     unsigned int
     iterations(const Beam &beam)
     {
@@ -73,10 +73,10 @@ namespace
 
     struct Iterations
     {
-      // Until the residual is 1e-8 of the load.
+      // The number until the residual is 1e-8 of the load.
       unsigned int by_residual;
-      // Until the error is 1e-8 of the solution in the norm of A, which
-      // conjugate gradients reduce in every iteration.
+      // The number until the error is 1e-8 of the solution in the norm of A,
+      // which conjugate gradients reduce in every iteration.
       unsigned int by_energy;
     };
 
@@ -118,7 +118,7 @@ namespace
                     const Vector            &b,
                     const PMultigrid        &P)
     {
-      // Its own error is far below 1e-8.
+      // The error of this reference is far below 1e-8.
       Vector                   exact(b), x(b), error(b), Ae(b);
       dealii::SolverControl    precise(200, 1e-12 * b.l2_norm());
       dealii::SolverCG<Vector> reference(precise);
@@ -141,7 +141,7 @@ namespace
       return found;
     }
 
-    // Along an arc of that angle.
+    // Bends the beam along an arc of that angle.
     static void
     bend(MovingBody &body, const double angle)
     {
@@ -157,7 +157,8 @@ namespace
       body.system.equation().evaluate(body.state, 0., 1.);
     }
 
-    // (P x, y) = (x, P y) to the round-off of single precision, (P x, x) > 0.
+    // Checks that (P x, y) = (x, P y) to the round-off of single precision, and
+    // (P x, x) > 0.
     static void
     check_symmetry(const PMultigrid &P, const Vector &x)
     {
@@ -174,8 +175,8 @@ namespace
   };
 } // namespace
 
-// Twice as fine in each direction, eight times the unknowns: no more than two
-// iterations more.
+// On a mesh twice as fine in each direction, with eight times the unknowns,
+// there are at most two iterations more.
 TEST_P(PMultigridTest, IterationsDoNotGrow)
 {
   const unsigned int coarse = iterations({.cells = "20, 2, 2"});
@@ -184,16 +185,16 @@ TEST_P(PMultigridTest, IterationsDoNotGrow)
   EXPECT_LE(fine, coarse + 2);
 }
 
-// Figures are those found, and some; without rigid body modes of the bent
-// body, without a working smoother or transfer, they are far above.
+// Bounds are measured numbers with some room; without rigid body modes of the
+// bent body, or with a broken smoother or transfer, numbers are far above.
 TEST_P(PMultigridTest, HardBodies)
 {
   EXPECT_LE(iterations({.cells = "20, 2, 2", .bent_by = 1.57}), 18u);
   EXPECT_LE(iterations({.cells = "20, 2, 2", .poissons_ratio = "0.45"}), 30u);
-  // With such a jump the residual rises in some iterations (degree 3, relative,
-  // the last four: 1.2e-7, 1.3e-8, 2.7e-8, 4.6e-9), and which one passes 1e-8
-  // first, 20 or 21, depends on the processor's round-off. The error by energy
-  // falls steadily.
+  // With such a jump of stiffness the residual rises in some iterations (the
+  // last four for degree 3, relative: 1.2e-7, 1.3e-8, 2.7e-8, 4.6e-9), so
+  // whether the 20th or 21st is the first below 1e-8 depends on the processor's
+  // round-off. The error by energy decreases steadily.
   const Iterations jump =
     solve({.cells = "20, 2, 2", .youngs_modulus = "left: 1e6, right: 1e9"});
   EXPECT_LE(jump.by_residual, 21u);
@@ -203,8 +204,8 @@ TEST_P(PMultigridTest, HardBodies)
 
 TEST_P(PMultigridTest, Dynamics)
 {
-  // A step in which inertia is as large as stiffness for waves of the beam's
-  // length, and one in which it dominates.
+  // In the first step inertia is as large as stiffness for waves of the beam's
+  // length, in the second it dominates.
   EXPECT_LE(iterations({.cells = "20, 2, 2", .mass_factor = 1e2}), 16u);
   EXPECT_LE(iterations({.cells = "20, 2, 2", .mass_factor = 1e6}), 12u);
   EXPECT_LE(iterations(
@@ -226,14 +227,14 @@ TEST_P(PMultigridTest, CoarseSolvers)
             continue;
           const unsigned int found = iterations(
             {.cells = "30, 3, 3", .coarse_solver = name, .bent_by = angle});
-          // At degree 1 the direct solver is the inverse.
+          // At degree 1 the direct solver is the exact inverse.
           EXPECT_LE(found, GetParam() == 1 ? 25u : direct + 8) << name;
         }
     }
 }
 
-// With bubbles the cycle has a level more. Without inertia, as large as
-// stiffness, and where it dominates.
+// With bubbles the cycle has one level more. Inertia is absent, as large as
+// stiffness, or dominates.
 TEST_P(PMultigridTest, Bubbles)
 {
   if (GetParam() != 2)
@@ -253,10 +254,10 @@ TEST_P(PMultigridTest, Bubbles)
 
 namespace
 {
-  // The smoothers' eigenvalues of an undeformed body on the ranks of @p comm;
-  // and the largest one of D^{-1} A with the diagonal D of A, on the finest
-  // level, from above by less than 1e-4 of it, by the Lanczos method in double
-  // precision.
+  // The smoothers' eigenvalues for an undeformed body on the ranks of @p comm;
+  // and the largest eigenvalue of D^{-1} A, with the diagonal D of A, on the
+  // finest level: an upper bound that is exact to 1e-4, by the Lanczos method
+  // in double precision.
   std::pair<std::vector<double>, double>
   largest_eigenvalues(const SerialMesh  &mesh,
                       const std::string &text,
@@ -301,10 +302,10 @@ namespace
 } // namespace
 
 // The estimate of the largest eigenvalue, 1.1 times a Ritz value, is an upper
-// bound and no more than a tenth too large, on meshes with and without
-// symmetry: its start is no vector without the eigenvector. It is the same on
-// any number of ranks but for round-off of single precision, of which a dozen
-// steps make some ten roundings.
+// bound and at most a tenth too large, on meshes with and without symmetry: the
+// starting vector has a component along the eigenvector. It is the same on any
+// number of ranks up to the round-off of single precision, which is some ten
+// roundings in a dozen steps.
 TEST_P(PMultigridTest, EigenvaluesDoNotDependOnRanks)
 {
   const unsigned int       degree = GetParam();
@@ -337,9 +338,10 @@ TEST_P(PMultigridTest, EigenvaluesDoNotDependOnRanks)
       }
 }
 
-// Nor on where the body is: nothing but differences of places counts. Round-off
-// of places, here of 1e-14, grows to 1e7 roundings in the starting vector, and
-// in the estimate to less than those of single precision.
+// The estimate does not depend on the position of the body either, only on
+// differences of positions. The round-off of positions, here 1e-14, becomes 1e7
+// roundings in the starting vector, and in the estimate less than those of
+// single precision.
 TEST_P(PMultigridTest, EigenvaluesDoNotDependOnThePlace)
 {
   const SerialMesh body  = box("4, 1, 1", "8, 2, 2", 0.2);

@@ -12,7 +12,7 @@
 
 namespace corotet::tests
 {
-  /// Those that this build has: some need optional parts.
+  /// The preconditioners that this build has: some need optional parts.
   inline std::vector<std::string>
   preconditioner_names()
   {

@@ -15,7 +15,7 @@
 
 namespace corotet::tests
 {
-  // f(x) = 0 with a given approximation of f'(x).
+  // The problem f(x) = 0 with a given approximation of f'(x).
   class Scalar : public NewtonProblem
   {
   public:
@@ -76,7 +76,7 @@ namespace corotet::tests
     double                        kept        = 0;
     unsigned int                  n_restored  = 0;
     bool                          with_energy = false;
-    // Of all linear solves.
+    // The tolerances of all linear solves.
     std::vector<double> tolerances;
   };
 

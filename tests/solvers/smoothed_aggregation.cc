@@ -22,8 +22,8 @@ using namespace corotet::tests;
 
 namespace
 {
-  /// Iterations of conjugate gradients for K x = b until the residual is 1e-8
-  /// |b|; 1000 if it does not get there.
+  /// The number of iterations of conjugate gradients for K x = b until the
+  /// residual is 1e-8 |b|; 1000 if it is not reached.
   int
   iterations(const SpringBox &box, const SmoothedAggregation &preconditioner)
   {
@@ -49,8 +49,9 @@ namespace
   }
 } // namespace
 
-// Aggregates end where a rank does, but their smoothed motions go on behind it:
-// if these ended there, too, each rank would cost up to two iterations more.
+// Aggregates end at the border of a rank, but their smoothed motions reach
+// beyond it: if these ended there, too, each rank would cost up to two
+// iterations more.
 TEST(SmoothedAggregation, IterationsHardlyGrow)
 {
   for (const int n : {4, 8, 14})
@@ -73,8 +74,8 @@ TEST(SmoothedAggregation, IterationsHardlyGrow)
     }
 }
 
-// Levels of aggregates of aggregates, until the last one is small: they know
-// rigid motions, too.
+// Aggregates are aggregated again until the last level is small; rigid motions
+// are in all levels.
 TEST(SmoothedAggregation, MoreLevels)
 {
   const SpringBox     box({{60, 15, 15}}, true);
@@ -93,14 +94,14 @@ TEST(SmoothedAggregation, MoreLevels)
       EXPECT_EQ(n.front(), preconditioner.n_aggregates().front());
       EXPECT_LE(n.back(), most);
       EXPECT_GT(n[n.size() - 2], most);
-      // One more on one rank, and on two.
+      // More levels take one iteration more, on one rank and on two.
       EXPECT_LE(iterations(box, with_more), by_two + 3) << most;
     }
 }
 
-// Three aggregates in one: nearly a third as many, for some more iterations (15
-// and 9; one more or less is round-off), where there are more than the last
-// level has.
+// Joining three aggregates gives nearly a third as many, for some more
+// iterations (15 instead of 9; one more or less is round-off). Aggregates are
+// joined only if there are more than the last level may have.
 TEST(SmoothedAggregation, JoinedAggregates)
 {
   const SpringBox     box({{60, 15, 15}}, true);
@@ -108,7 +109,7 @@ TEST(SmoothedAggregation, JoinedAggregates)
   preconditioner.build(*box.matrix, box.positions().data());
   with_fewer.set_coarsening({.n_joined = 3});
   with_fewer.build(*box.matrix, box.positions().data());
-  // Some find no free neighbour.
+  // Some aggregates find no free neighbour to be joined with.
   EXPECT_LT(2.5 * with_fewer.n_aggregates().front(),
             preconditioner.n_aggregates().front());
   EXPECT_LE(iterations(box, with_fewer), iterations(box, preconditioner) + 8);
@@ -120,10 +121,9 @@ TEST(SmoothedAggregation, JoinedAggregates)
   EXPECT_EQ(of_small.n_aggregates(), joined_of_small.n_aggregates());
 }
 
-// A chain of four aggregates of two nodes each, the last one beside a ghost:
-// the first is joined with the second, and the third with the fourth; by
-// threes, the fourth is left alone. Of a ring's neighbours, the one with two
-// links comes first.
+// A chain of four aggregates of two nodes each. In pairs, the first is joined
+// with the second, and the third with the fourth; by threes, the fourth is left
+// alone. In the star, the neighbour with two links is joined first.
 TEST(NodeGraph, JoinsClosestNeighbours)
 {
   NodeGraph chain;
@@ -145,7 +145,7 @@ TEST(NodeGraph, JoinsClosestNeighbours)
   EXPECT_EQ(join(star, {0, 1, 2, 2}, 2), (std::vector<int>{0, 1, 0, 0}));
 }
 
-// The first of several ranks owns none of three nodes in a row.
+// There are three nodes in a row, and the first of several ranks owns none.
 TEST(SmoothedAggregation, AllowsRankWithoutNodes)
 {
   SpringBox box({{2, 0, 0}}, false);
@@ -160,7 +160,7 @@ TEST(SmoothedAggregation, AllowsRankWithoutNodes)
   EXPECT_LE(iterations(box, preconditioner), 9);
 }
 
-// Positions that are all the same have no rotations.
+// With equal positions of all nodes there are no rotations.
 TEST(SmoothedAggregation, NeedsRotations)
 {
   const SpringBox     box({{32, 6, 6}}, true);
@@ -173,8 +173,8 @@ TEST(SmoothedAggregation, NeedsRotations)
   EXPECT_GT(iterations(box, preconditioner), 1.5 * right);
 }
 
-// Nodes that nothing joins stay alone on any level: that must not go on for
-// ever.
+// Nodes without neighbours stay alone on every level; the coarsening must end
+// nevertheless.
 TEST(SmoothedAggregation, NodesWithoutNeighbours)
 {
   SpringBox box({{40, 0, 0}}, false);
@@ -186,7 +186,8 @@ TEST(SmoothedAggregation, NodesWithoutNeighbours)
   EXPECT_LE(iterations(box, preconditioner), 2);
 }
 
-// With memory given back on the way, which takes some megabytes.
+// Memory of the matrix is given back while the levels are built; the mesh is
+// large enough for that.
 TEST(SmoothedAggregation, MatrixMayBeGivenUp)
 {
   const SpringBox     box({{30, 12, 12}}, true);
@@ -205,7 +206,8 @@ TEST(SmoothedAggregation, MatrixMayBeGivenUp)
   EXPECT_EQ(other.l2_norm(), 0.);
 }
 
-// u.Pv = v.Pu up to the round-off of single precision, in both precisions.
+// The operator is symmetric, u.Pv = v.Pu, up to the round-off of single
+// precision, for vectors of both precisions.
 class Symmetry : public testing::TestWithParam<double>
 {};
 
@@ -240,7 +242,7 @@ TEST_P(Symmetry, OfThreeLevels)
   EXPECT_NEAR(u_single_Pv, uPv, 1e-4 * size);
 }
 
-// With blocks of points, and with blocks of aggregates.
+// The two cases are blocks of points and blocks of aggregates.
 INSTANTIATE_TEST_SUITE_P(SmoothedAggregation,
                          Symmetry,
                          testing::Values(0., 0.3),
@@ -248,7 +250,8 @@ INSTANTIATE_TEST_SUITE_P(SmoothedAggregation,
                            return info.param == 0 ? "Points" : "Aggregates";
                          });
 
-// New values in the same pattern; then no motion is without resistance.
+// A free body is refused; with mass the matrix, of the same pattern, is
+// definite, and new values are used.
 TEST(SmoothedAggregation, FollowsMatrixAndRefusesFreeBody)
 {
   SpringBox           box({{8, 4, 4}}, false);

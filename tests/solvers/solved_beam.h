@@ -11,7 +11,7 @@
 
 namespace corotet::tests
 {
-  /// What the solver of a clamped beam needs and finds: owned entries.
+  /// The iterations, and the owned entries of the solution, for a clamped beam.
   struct Solved
   {
     unsigned int        iterations = 0;

@@ -3,7 +3,7 @@
 
 // The factorisation inverts stiffness matrices up to round-off times the
 // condition number, in both precisions, for vectors of both, on one rank and on
-// two; it follows new values and new patterns; a body that can move is refused.
+// two; it follows new values and new patterns and refuses a body that can move.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/solvers/sparse_cholesky.h>
@@ -28,7 +28,8 @@ using DistributedVector = dealii::LinearAlgebra::distributed::Vector<Number>;
 
 namespace
 {
-  /// Largest error of @p inverse applied to K x, where x has entries of size 1.
+  /// The largest error of @p inverse applied to K x, where x has entries of
+  /// size 1.
   template <typename Number>
   double
   error(const SpringBox &box, const SparseCholesky &inverse)
@@ -49,8 +50,8 @@ namespace
     return dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD);
   }
 
-  /// While it lives, CHOLMOD gets as many more blocks of memory on this rank as
-  /// @p n; then none, or all but one.
+  /// While it lives, CHOLMOD gets @p n more blocks of memory on this rank; then
+  /// it gets no more, or, with @p once, only the next one is refused.
   class MemoryLimit
   {
   public:
@@ -94,8 +95,8 @@ namespace
 } // namespace
 
 // The condition number of these boxes is below 1e4. Single precision of the
-// right hand side and of the solution counts too, with 6e-8 of each. The second
-// box has more nodes than are ordered by minimum degree.
+// right hand side and of the solution adds an error of 6e-8 of each. The second
+// box has too many nodes to be ordered by minimum degree.
 TEST(SparseCholesky, InvertsMatrix)
 {
   for (const auto &cells : {Cells{{8, 2, 2}}, Cells{{20, 16, 15}}})
@@ -111,7 +112,7 @@ TEST(SparseCholesky, InvertsMatrix)
     }
 }
 
-// What is known before there are numbers is what comes out.
+// The counts from the analysis are those of the factorisation.
 TEST(SparseCholesky, AnalyzeCounts)
 {
   const SpringBox box({{8, 2, 2}}, true);
@@ -120,8 +121,8 @@ TEST(SparseCholesky, AnalyzeCounts)
   inverse.factorize(*box.matrix);
   EXPECT_EQ(counted.n_entries(), inverse.n_entries());
   EXPECT_EQ(counted.n_operations(), inverse.n_operations());
-  // Each column of k entries takes about k^2 operations: at least what a
-  // diagonal of blocks would.
+  // A column of k entries takes about k^2 operations: the number is at least
+  // that of a block diagonal matrix.
   EXPECT_GT(counted.n_operations(), 9. * 3 * box.pattern->nodes().n_global());
   counted.factorize(*box.matrix);
   EXPECT_LT(error<double>(box, counted), 1e-11);
@@ -136,12 +137,12 @@ TEST(SparseCholesky, InvertsMatrixInSinglePrecision)
   EXPECT_LT(error<float>(box, inverse), 2e-3);
   const double error_of_double = error<double>(box, inverse);
   EXPECT_LT(error_of_double, 2e-3);
-  // It is single precision indeed.
+  // The error shows that single precision was used.
   EXPECT_GT(error_of_double, 1e-9);
 }
 
-// As a run does that goes on after single precision has failed: for the first
-// pattern only.
+// A run that goes on after single precision has failed begins in double
+// precision, for the first pattern only.
 TEST(SparseCholesky, BeginsInDouble)
 {
   const SpringBox box({{8, 2, 2}}, true), other({{3, 4, 3}}, true);
@@ -154,8 +155,9 @@ TEST(SparseCholesky, BeginsInDouble)
   EXPECT_EQ(inverse.precision(), Precision::single_precision);
 }
 
-// Powers of two change exponents only: solutions are the same to the last bit
-// for matrices and right hand sides far beyond the range of single precision.
+// Factors that are powers of two change exponents only: solutions are the same
+// to the last bit for matrices and right hand sides far beyond the range of
+// single precision.
 TEST(SparseCholesky, AnySize)
 {
   const SpringBox     unscaled({{8, 2, 2}}, true);
@@ -185,7 +187,8 @@ TEST(SparseCholesky, AnySize)
     }
 }
 
-// Other values in the same pattern, another pattern, and a start afresh.
+// The factorisation is repeated with other values in the same pattern, with
+// another pattern, and from the start.
 TEST(SparseCholesky, FollowsMatrix)
 {
   SpringBox      box({{4, 2, 2}}, true);
@@ -205,7 +208,7 @@ TEST(SparseCholesky, FollowsMatrix)
   EXPECT_LT(error<double>(box, afresh), 1e-12);
 }
 
-// In exact arithmetic, six pivots of a free body are zero; round-off makes them
+// In exact arithmetic six pivots of a free body are zero; round-off makes them
 // negative or tiny. Inertia makes the matrix definite.
 TEST(SparseCholesky, RefusesFreeBody)
 {
@@ -239,8 +242,8 @@ TEST(SparseCholesky, RefusesFreeBody)
 }
 
 // The pivots of the free end are as small as the third power of the
-// slenderness, less than single precision resolves: double precision takes its
-// place. The condition number is below 1e11.
+// slenderness, below the resolution of single precision: double precision
+// replaces it. The condition number is below 1e11.
 TEST(SparseCholesky, SlenderBodyNeedsDoublePrecision)
 {
   const SpringBox box({{400, 1, 1}}, true);
@@ -250,10 +253,10 @@ TEST(SparseCholesky, SlenderBodyNeedsDoublePrecision)
   EXPECT_LT(error<double>(box, inverse), 1e-4);
 }
 
-// The matrix is factorised on rank 0. Whichever block of memory it does not get
-// there, and whether it gets later ones or not, all ranks learn it, in both
-// precisions and where double takes the place of single. If it is satisfied,
-// the inverse is right.
+// The matrix is factorised on rank 0. Whichever block of memory is refused
+// there, and whether later ones are or not, all ranks get the error, in both
+// precisions and where double replaces single. If no block is missing, the
+// inverse is right.
 TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
 {
   const struct
@@ -296,7 +299,7 @@ TEST(SparseCholesky, MemoryMayBeTooShortAnywhere)
       long n_needed = 0;
       while (n_needed < 1000 && !factorizes(n_needed, false))
         ++n_needed;
-      // The matrix, its order, the factor and the vectors are blocks.
+      // There are blocks for the matrix, its order, the factor and the vectors.
       EXPECT_GT(n_needed, 20);
       EXPECT_LT(n_needed, 1000);
       for (long n_blocks = 0; n_blocks < n_needed; ++n_blocks)

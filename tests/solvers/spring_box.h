@@ -32,7 +32,7 @@ namespace corotet::tests
       , clamped(clamped)
     {
       const int n_nodes = (cells[0] + 1) * (cells[1] + 1) * (cells[2] + 1);
-      // Not the same number on all ranks.
+      // Ranks have different numbers of nodes.
       const int n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
       const int rank    = dealii::Utilities::MPI::this_mpi_process(comm);
       const int first   = n_nodes * rank * rank / (n_ranks * n_ranks);
@@ -58,7 +58,7 @@ namespace corotet::tests
                    b] = block[a][b];
     }
 
-    /// Adds @p mass to the diagonal.
+    /// Adds @p mass to the diagonal of the matrix.
     void
     add_mass(const double mass)
     {
@@ -77,7 +77,7 @@ namespace corotet::tests
       return result;
     }
 
-    /// A vector of the matrix's rows.
+    /// A vector with the rows of the matrix.
     Vector
     vector() const
     {
@@ -102,7 +102,7 @@ namespace corotet::tests
       return clamped && x[0] == 0;
     }
 
-    /// The blocks in the row of a node, by columns in global numbers.
+    /// The blocks in the row of a node, by global columns.
     std::map<int, dealii::Tensor<2, 3>>
     blocks_of(const int node) const
     {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Degree 1 on flat and on stretched cells: aggregates of what moves alike keep
-// iterations few, on two levels, and p-multigrid asks for them by itself.
+// Degree 1 on flat and on stretched cells: aggregates of strongly coupled nodes
+// keep iterations few, with two levels, and p-multigrid uses them by itself.
 
 #include <corotet/solvers/p_multigrid.h>
 #include <corotet/solvers/smoothed_aggregation.h>
@@ -57,9 +57,9 @@ namespace
 struct Proportions
 {
   const char *name, *size, *cells;
-  // What is measured on one rank, on two and on three, and a quarter.
-  // Aggregates end where a rank does, also where that is in the middle of what
-  // is coupled strongly.
+  // The measured numbers of iterations on one, two and three ranks, plus a
+  // quarter. Aggregates end at the border of a rank, also if it separates nodes
+  // that are coupled strongly.
   std::array<unsigned int, 3> most;
 };
 
@@ -92,7 +92,7 @@ INSTANTIATE_TEST_SUITE_P(
     return name;
   });
 
-// On cubes it is as good, and costs more: p-multigrid does without.
+// On cubes they save no iterations and cost more: p-multigrid does without.
 TEST(StrongCouplingsOfCubes, AreNotAskedFor)
 {
   const ClampedBody body("2, 1, 1", "8, 4, 4", element_text(1));

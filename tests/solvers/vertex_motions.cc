@@ -31,8 +31,8 @@ namespace
   using FloatVector = VertexMotions::FloatVector;
   using Field       = std::function<Tensor<1, 3>(const Point<3> &)>;
 
-  // A body of degree 2, its stiffness with a spring at a side, and the same for
-  // motions of the vertices.
+  // A body of degree 2, its stiffness with springs at a side, and the same
+  // operators for the motions of its vertices.
   struct Motions
   {
     Motions(const SerialMesh &mesh, const std::string &entries)
@@ -68,7 +68,8 @@ namespace
                      has_springs ? &surface : nullptr);
     }
 
-    // Unknowns of displacements and rotations at the vertices.
+    // The coarse unknowns for a displacement u and a rotation w at the
+    // vertices.
     std::vector<double>
     unknowns(const Field &u, const Field &w) const
     {
@@ -95,8 +96,8 @@ namespace
       return x;
     }
 
-    // Twice the energies of these motions by their matrix, and of the quadratic
-    // function by A.
+    // Twice the energies of these motions: by their own matrix, and of the
+    // quadratic function by A.
     std::pair<double, double>
     energies(const std::vector<double> &coarse) const
     {
@@ -122,7 +123,7 @@ namespace
     SurfaceOperator<double> surface;
   };
 
-  // A rotation about the origin and a displacement.
+  // The rotation vector of a rigid motion, which also has a translation.
   const Tensor<1, 3> spin({0.3, -0.7, 0.4});
 
   Tensor<1, 3>
@@ -160,9 +161,9 @@ namespace
 } // namespace
 
 // The deflection of a bend is exact, and so are displacements along the body on
-// the layers of vertices; on edges from one to another these get half of what a
-// bend adds to the mean of the ends, x z / 4. Arms are single: some roundings
-// of numbers of size one.
+// the layers of vertices. On edges between layers, these get only half of what
+// a bend adds to the mean of the ends, x z / 4. Arms are in single precision:
+// some roundings of numbers of size one.
 TEST(VertexMotions, BendOfConstantCurvature)
 {
   Motions m(box("2, 1, 0.5", "4, 3, 2"), "");
@@ -181,8 +182,9 @@ TEST(VertexMotions, BendOfConstantCurvature)
     }
 }
 
-// On curved edges, too, and no force resists them. K has entries of up to some
-// ten, so that sums of 1e3 of them are known to 1e-12.
+// Rigid motions are exact, on curved edges, too, and no force resists them. K
+// has entries of up to some ten, so that sums of 1e3 of them have errors of
+// 1e-12.
 TEST(VertexMotions, RigidMotions)
 {
   for (const bool is_curved : {false, true})
@@ -212,8 +214,8 @@ TEST(VertexMotions, RigidMotions)
 }
 
 // The energy of a motion is that of its quadratic function, mass and springs at
-// the surface included, and of the springs of its rotations, which are weak.
-// What is single is known to 1e-6.
+// the surface included, plus that of the weak springs of its rotations. Single
+// precision limits its accuracy to 1e-6.
 TEST(VertexMotions, Energy)
 {
   for (const std::string &entries : {std::string(),
@@ -233,8 +235,8 @@ TEST(VertexMotions, Energy)
             return is_free ? wave(x) : x[0] * wave(x);
           };
           const auto [own, exact] = m.energies(m.unknowns(held, wave));
-          // Rotations alike need no springs if displacements are those of a
-          // rotation: then both have the same.
+          // The springs of rotations have no energy in a rigid rotation: then
+          // both energies are equal.
           if (is_free)
             {
               const auto [of_matrix, of_A] =
@@ -271,15 +273,16 @@ TEST(VertexMotions, RestrictionIsTheTranspose)
 struct Thin
 {
   const char *name, *size, *cells;
-  // Iterations that degrees 2 and 3 take, and a tenth.
+  // The iterations for degrees 2 and 3, plus a tenth.
   unsigned int most[2];
 };
 
 class VertexRotations : public testing::TestWithParam<Thin>
 {};
 
-// With the rotations of the vertices a fraction of the iterations does, the
-// same on any number of ranks up to what floats make of sums.
+// With the rotations of vertices a fraction of the iterations is enough, the
+// same number on any number of ranks, up to the round-off of sums in single
+// precision.
 TEST_P(VertexRotations, IterationsAreFew)
 {
   for (const unsigned int degree : {2, 3})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Checks of a table whose statistics are known: what is computed, what passes
-// and what is refused.
+// Checks of a table whose statistics are known: computed values, passed checks
+// and refusals.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/studies/check.h>
@@ -66,7 +66,7 @@ TEST(Check, Conditions)
             4.5);
 }
 
-// As in all formulas.
+// Operators and blanks are allowed as in all formulas.
 TEST(Check, OperatorsAndBlanks)
 {
   EXPECT_EQ(result("a: mean tip_x where tip_x>0&&step>=0 < 3").computed, 4.5);
@@ -76,7 +76,7 @@ TEST(Check, OperatorsAndBlanks)
 
 TEST(Check, Tolerances)
 {
-  // 0.5 is exact: the bound itself passes.
+  // 0.5 is exact, so a value at the bound passes.
   EXPECT_TRUE(result("a: last tip_x = 7.5 +- 0.5").passed);
   EXPECT_FALSE(result("a: last tip_x = 7.5 +- 0.499").passed);
   EXPECT_TRUE(result("a: min tip_x = -2.5 +- 0.5").passed);
@@ -95,7 +95,7 @@ TEST(Check, Tolerances)
   EXPECT_EQ(result("a: last tip_x < 7").tolerance, "below");
 }
 
-// Whoever compares with not a number must be told so.
+// A check of a value that is not a number must fail.
 TEST(Check, NotANumberFails)
 {
   EXPECT_TRUE(result("a: last broken = 1 +- 1").passed);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The list of what there is: everything that a parameter file can name.
+// The list of choices: everything that a parameter file can name.
 
 #include <corotet/mesh/mesh_format.h>
 #include <corotet/mesh/mesh_sources.h>
@@ -59,7 +59,7 @@ TEST(Choices, FirstSentence)
   EXPECT_TRUE(cut.ends_with("word ...")) << cut;
 }
 
-// Every case that comes with corotet, and every name in the layers' lists.
+// The list has every case that comes with corotet, and every registered name.
 TEST(Choices, Everything)
 {
   for (const auto &entry :

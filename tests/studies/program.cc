@@ -7,7 +7,7 @@
 
 using namespace corotet;
 
-// The program starts MPI, which these tests have done before.
+// The program starts MPI, which these tests have started before.
 TEST(Program, WhereMpiHasBeenStarted)
 {
   char  name[]       = "corotet";

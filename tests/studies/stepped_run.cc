@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// When a run step by step is over, and that its results stay as they are then.
+// When a run in single steps is over, and that its results remain then.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/studies/stepped_run.h>
@@ -22,8 +22,9 @@ using namespace corotet::tests;
 
 namespace
 {
-  // A bar of a law without stress in flat cells, whose end moves to the other
-  // side of its support in six load steps: the second or third is too far.
+  // A bar whose law has no stress in flat cells, and whose end moves to the
+  // other side of its support in six load steps: the second or third moves too
+  // far.
   const std::string bar =
     box_mesh("1, 1, 1", "1, 1, 1") + material_type("neo-Hookean") +
     material_text(1e6) + fixed("x-min") + displacements("x-max: -3*t; 0; 0") +

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Tables of studies, from results that are made up: orders of errors that obey
-// a power law exactly.
+// Tables of studies, from made-up results whose errors obey a power law
+// exactly, so that orders are known.
 
 #include <corotet/studies/study_table.h>
 
@@ -27,7 +27,7 @@ namespace
     const double e    = std::pow(result.h, degree);
     if (time_step)
       {
-        // Of a run of 1 s, in steps that divide it.
+        // A run of 1 s, in equal steps.
         result.steps          = std::ceil(1 / *time_step);
         result.mean_time_step = 1. / result.steps;
       }
@@ -39,7 +39,7 @@ namespace
     return result;
   }
 
-  // Of a table without quantities.
+  // A result without quantities.
   StudyResult
   in_steps(const unsigned int refinements, const double time_step)
   {
@@ -66,7 +66,7 @@ TEST(StudyTable, Orders)
                               "tip_z,L2_error,L2_order,H1_error,H1_order,"
                               "energy_error,energy_order,tip_z_error,"
                               "tip_z_order,steps,"));
-  // The first of each degree has no order; powers of two are exact.
+  // The first row of each degree has no order; powers of two are exact.
   EXPECT_TRUE(
     contains(csv, "1,0,\"done\",5,0,0,1,1,2,3,8,1,nan,1,nan,2,nan,1,nan,"));
   EXPECT_TRUE(
@@ -84,7 +84,8 @@ TEST(StudyTable, OrdersInTime)
     {in_steps(0, 0.5), in_steps(1, 0.5), in_steps(0, 0.25)}, {});
   const std::string csv = table.csv();
   EXPECT_TRUE(contains(csv, "L2_error,L2_order,L2_order_in_time"));
-  // Degree 2 in space, order 2 in time: only one of them differs.
+  // An order is known where only the cells, or only the steps, differ: 2 in
+  // space for degree 2 (in H1, 3 in L2), and 2 in time.
   EXPECT_TRUE(
     contains(csv, "2,1,0.5,0.5,\"done\",40,0,0,0.5,1,2,3,0.03125,3,nan,"));
   EXPECT_TRUE(
@@ -92,8 +93,8 @@ TEST(StudyTable, OrdersInTime)
   EXPECT_FALSE(contains(table.lines()[0], "mean step"));
 }
 
-// Of steps that are shortened so that they divide the time, and none of two
-// runs of the same number of steps.
+// Orders in time use the actual steps, which are shortened so that they divide
+// the time; two runs with equally many steps have no order.
 TEST(StudyTable, OrdersInTimeOfStepsThatWereMade)
 {
   const StudyTable table({in_steps(0, 0.6), in_steps(0, 0.5), in_steps(0, 0.3)},
@@ -108,7 +109,7 @@ TEST(StudyTable, OrdersInTimeOfStepsThatWereMade)
   EXPECT_TRUE(contains(table.lines()[0], "mean step"));
 }
 
-// An error that stays, and ones that are too small to tell.
+// An error that does not decrease, and errors that are too small to tell.
 TEST(StudyTable, ErrorsThatDoNotConverge)
 {
   const auto rows = [](const double first, const double second) {
@@ -125,7 +126,7 @@ TEST(StudyTable, ErrorsThatDoNotConverge)
   EXPECT_EQ(StudyTable(rows(0.1, 0.08), {}).not_converging(),
             std::vector<std::string>({expected}));
   EXPECT_TRUE(StudyTable(rows(1e-7, 1e-7), {}).not_converging().empty());
-  // What comes before the finest does not matter.
+  // Errors before the last two cell sizes do not matter.
   std::vector<StudyResult> three = rows(0.1, 0.1);
   three.push_back(made_up(2, 2));
   EXPECT_TRUE(StudyTable(three, {}).not_converging().empty());
@@ -148,7 +149,7 @@ TEST(StudyTable, Texts)
   EXPECT_TRUE(contains(latex, "\\bottomrule"));
 }
 
-// What is kept of a run comes back, not a number included.
+// All kept data of a run are restored, also values that are not numbers.
 TEST(StudyTable, KeptResult)
 {
   StudyResult result       = made_up(3, 2);

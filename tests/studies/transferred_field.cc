@@ -44,13 +44,14 @@ TEST(TransferredField, ReproducesPolynomials)
                         element_text(Element(3)));
   const Vector     u =
     body.interpolate([](const Point<3> &x) { return cubic(x).value; });
-  // Of other cells, which the ranks have others of.
+  // The other mesh has other cells, distributed differently over ranks.
   const MovingBody other(box("1, 1, 1", "4, 5, 6"), element_text(Element(2)));
   const Discretization  &target = other.discretization;
   const TransferredField field(body.discretization, u, target);
   const auto             expect_cubic = [&](const Point<3> &x) {
     const PointDisplacement found = field.value(x);
-    // Coordinates, shape functions and their sum: some ten times round-off.
+    // The tolerance is some ten times the round-off of coordinates, shape
+    // functions and their sum.
     EXPECT_LT((found.value - cubic(x).value).norm(), 1e-14) << x;
     EXPECT_LT((found.gradient - cubic(x).gradient).norm(), 1e-13) << x;
   };
@@ -62,8 +63,8 @@ TEST(TransferredField, ReproducesPolynomials)
           x[0] += 1e-15;
         expect_cubic(x);
       }
-  // Corners, sides, the inside; also outside by round-off: of ranks that have a
-  // cell with the point, some rank does.
+  // Corners, sides, inner points, and one that is outside by round-off: at
+  // least one rank with a cell at the point finds it.
   const PointSearch search(target);
   for (const Point<3> x : {Point<3>(0, 0, 0),
                            Point<3>(1, 1, 1),
@@ -83,7 +84,8 @@ TEST(TransferredField, ReproducesPolynomials)
     }
 }
 
-// The rule is exact for these: integrals over the unit cube, by hand.
+// The rule is exact for these functions: their integrals over the unit cube
+// were computed by hand.
 TEST(ErrorNorms, ExactForPolynomials)
 {
   const MovingBody body(box("1, 1, 1", "2, 2, 2", 0.2),
@@ -101,7 +103,7 @@ TEST(ErrorNorms, ExactForPolynomials)
   EXPECT_NEAR(exact.reference.H1,
               std::sqrt(4. / 9 + 1. / 5 + 1 + 9. / 5),
               1e-14);
-  // Uniaxial strain of one: eps : C : eps = lambda + 2 mu.
+  // A uniaxial strain of one has eps : C : eps = lambda + 2 mu.
   const ErrorNorms strained =
     error_norms(body.discretization, materials, u, [](const Point<3> &x) {
       PointDisplacement v = cubic(x);

@@ -27,7 +27,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // u after n equal steps to @p end.
+  // The state after @p n equal steps to @p end.
   State
   integrate(TimeIntegrator    &integrator,
             Oscillator        &system,
@@ -41,8 +41,8 @@ namespace
     return state;
   }
 
-  // The undamped oscillator with natural frequency 2, driven at w = 3:
-  // u = cos(2t) + b sin(2t) + p / (k - m w^2) sin(3t), u(0) = 1, v(0) = 0.
+  // The order for the undamped oscillator with natural frequency 2, driven at w
+  // = 3: u = cos(2t) + b sin(2t) + p / (k - m w^2) sin(3t), u(0) = 1, v(0) = 0.
   double
   measured_order(TimeIntegrator &integrator)
   {
@@ -93,7 +93,7 @@ TEST(Oscillator, Orders)
   EXPECT_NEAR(measured_order(central_difference), 2, 0.1);
 }
 
-// Whatever the list has: the order is what the integrator says.
+// Every registered integrator has the order that it states.
 TEST(Oscillator, EveryIntegratorHasItsOrder)
 {
   for (const std::string &name : integrators_with(is_dynamic))
@@ -104,9 +104,9 @@ TEST(Oscillator, EveryIntegratorHasItsOrder)
     }
 }
 
-// What integrators say of themselves with parameters other than the defaults,
-// by the textbook's formulas: gamma = 1/2 is of second order, the trapezoidal
-// rule keeps energy, and only alpha_m = alpha_f = 0 balances at the end.
+// The stated properties of integrators depend on their parameters, by the
+// textbook's formulas: gamma = 1/2 is of second order, the trapezoidal rule
+// keeps energy, and only alpha_m = alpha_f = 0 balances at the end.
 TEST(TimeIntegrator, PropertiesFollowParameters)
 {
   Newmark newmark;
@@ -133,8 +133,8 @@ TEST(TimeIntegrator, PropertiesFollowParameters)
     }
 }
 
-// After reset() a run is that of a new integrator, to the last bit, whenever it
-// starts and whatever there was before.
+// After reset() a run equals that of a new integrator, to the last bit,
+// whenever it starts and whatever was computed before.
 TEST(TimeIntegrator, ResetForgetsEarlierSteps)
 {
   const auto run = [](TimeIntegrator &integrator) {
@@ -154,8 +154,9 @@ TEST(TimeIntegrator, ResetForgetsEarlierSteps)
     }
 }
 
-// Without loads and damping all that say so keep m v^2 + k u^2 (those with
-// staggered velocities another sum: see below): 10,000 steps of round-off.
+// Without loads and damping all integrators that promise it keep m v^2 + k u^2,
+// to the round-off of 10,000 steps (those with staggered velocities keep
+// another sum: see below).
 TEST(Oscillator, EnergyIsKept)
 {
   const auto energy_change = [](TimeIntegrator &integrator) {
@@ -178,12 +179,12 @@ TEST(Oscillator, EnergyIsKept)
   EXPECT_NEAR(energy_change(generalized_alpha), 0, 1e-11);
 }
 
-// At w dt < 2 the central difference method keeps m v^2 + k u^2 - dt^2 m a^2 /
-// 4; beyond, the motion grows.
+// For w dt < 2 the central difference method keeps m v^2 + k u^2 - dt^2 m a^2 /
+// 4; above, the motion grows.
 TEST(Oscillator, CentralDifference)
 {
   CentralDifference integrator;
-  Oscillator        system; // of angular frequency 2
+  Oscillator        system; // with the angular frequency 2
   EXPECT_NEAR(integrator.stable_step(2., 0.), 1, 1e-15);
   const auto energy = [&](const State &s, const double dt) {
     const double u = s.u.local_element(0), v = s.v.local_element(0),
@@ -195,7 +196,8 @@ TEST(Oscillator, CentralDifference)
   for (const double dt : {0.1, 0.9, 0.99})
     {
       const State end = integrate(integrator, system, start, 10000 * dt, 10000);
-      // In this norm an error of u counts 1 / (1 - (w dt / 2)^2), 50, times.
+      // In this norm an error of u is multiplied by 1 / (1 - (w dt / 2)^2), up
+      // to 50.
       EXPECT_NEAR(energy(end, dt) / energy(start, dt), 1, 1e-9) << dt;
     }
   const State grown = integrate(integrator, system, start, 1000 * 1.01, 1000);
@@ -203,7 +205,7 @@ TEST(Oscillator, CentralDifference)
 }
 
 // Damping by mass, c = alpha m, is centred: the motion decays with second
-// order, and stability does not suffer.
+// order, and the stable step remains.
 TEST(Oscillator, CentralDifferenceWithDamping)
 {
   CentralDifference integrator;
@@ -226,8 +228,8 @@ TEST(Oscillator, CentralDifferenceWithDamping)
   EXPECT_LE(std::abs(s.u.local_element(0)), 1e-10);
 }
 
-// Steps of changing length: BDF2 takes their ratio into account, also when a
-// step is tried again with another length.
+// BDF2 takes the ratio of unequal steps into account, also when a step is
+// repeated with another length.
 TEST(Oscillator, BDF2WithUnequalSteps)
 {
   double error[2];
@@ -240,7 +242,7 @@ TEST(Oscillator, BDF2WithUnequalSteps)
       double             time  = 0;
       for (unsigned int k = 0; k < n; ++k)
         {
-          // Of 2 / 3 and 4 / 3 of the mean.
+          // Steps alternate between 2 / 3 and 4 / 3 of the mean.
           const double dt = 2. / n * (k % 2 == 0 ? 2. / 3 : 4. / 3);
           State        trial(state);
           integrator.step(system, {time, 1.7 * dt, 1.}, trial);
@@ -252,8 +254,8 @@ TEST(Oscillator, BDF2WithUnequalSteps)
   EXPECT_NEAR(std::log2(error[0] / error[1]), 2, 0.1);
 }
 
-// The estimate of the local error of u: that of a step with the acceleration
-// that the method has at its start. Exact motion on both sides.
+// The estimate of the local error of u: that of one step that starts with the
+// acceleration of the method. The exact motion starts from the same u and v.
 TEST(Oscillator, ErrorEstimate)
 {
   const auto names = integrators_with([](const TimeIntegrator &integrator) {
@@ -270,7 +272,7 @@ TEST(Oscillator, ErrorEstimate)
                              std::cos(2 * t) + 0.5 * std::sin(2 * t),
                              -2 * std::sin(2 * t) + std::cos(2 * t));
       };
-      // a_n has its place in time after some steps.
+      // After some steps a_n belongs to the time that the method gives it.
       const unsigned int n = 100;
       State before = integrate(*integrator, system, state_at(0.), n * dt, n);
       State after  = before;
@@ -278,16 +280,16 @@ TEST(Oscillator, ErrorEstimate)
       const double estimate =
         integrator->error_constant() * dt * dt *
         std::abs(after.a.local_element(0) - before.a.local_element(0));
-      // From the same u and v.
+      // The exact motion from the same u and v.
       const double u = before.u.local_element(0), v = before.v.local_element(0);
       const double exact = u * std::cos(2 * dt) + 0.5 * v * std::sin(2 * dt);
       const double error = std::abs(after.u.local_element(0) - exact);
-      // First term of a series in dt w = 2e-3.
+      // The estimate is the first term of a series in dt w = 2e-3.
       EXPECT_NEAR(estimate / error, 1, 2e-2) << name;
     }
 }
 
-// Motion far too fast for the step shrinks by the spectral radius per step.
+// A motion far too fast for the step decreases by the spectral radius per step.
 TEST(Oscillator, SpectralRadiusAtInfinity)
 {
   for (const double rho : {0.3, 0.5, 0.9})
@@ -301,18 +303,19 @@ TEST(Oscillator, SpectralRadiusAtInfinity)
           integrator, system, initial_state(system, 1., 0.), 0.1 * n, n);
         return std::abs(s.u.local_element(0));
       };
-      // The amplification matrix at infinity is defective: powers of rho times
-      // a polynomial. Over many steps its rate remains.
+      // The amplification matrix at infinity is defective: norms are powers of
+      // rho times a polynomial. Over many steps only the rate matters.
       const double rate = std::pow(norm(200) / norm(100), 0.01);
       EXPECT_NEAR(rate, rho, 0.02 * rho) << rho;
     }
 }
 
-// k u = s p sin(w t): the load factor s grows in equal steps.
+// The static equation k u = s p sin(w t): the load factor s grows in equal
+// steps.
 TEST(Oscillator, LoadStepping)
 {
   LoadStepping integrator;
-  // Time is no more than a parameter.
+  // Time is only a parameter of the load.
   EXPECT_FALSE(integrator.is_dynamic());
   EXPECT_EQ(integrator.order(), 0u);
   Oscillator system;
@@ -340,12 +343,12 @@ TEST(TimeIntegrator, NumberOfSteps)
 }
 
 // With c = alpha_K omega the stable x = omega dt solves x^2 + 2 c x = 4, from
-// very small to very large c: to a few units of round-off, as the left side is
-// at most twice as far off as x, all its terms being positive.
+// very small to very large c: to a few units of round-off, as all terms of the
+// left side are positive, so its relative error is at most twice that of x.
 TEST(CentralDifference, StableStepWithDamping)
 {
   const CentralDifference method;
-  // So that c is exact.
+  // This value makes c exact.
   const double omega = 8;
   for (double c = 1e-8; c < 2e12; c *= 10)
     {

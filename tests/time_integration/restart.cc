@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What integrators keep from one step to the next, and the balance at the end
-// of a step, on a scalar oscillator m a + c v + k u = p sin(w t).
+// The data that integrators keep between steps, and the balance at the end of a
+// step, on a scalar oscillator m a + c v + k u = p sin(w t).
 
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Steps first ... end - 1, which are unequal.
+  // Makes the steps first ... end - 1, which are unequal.
   void
   make_steps(TimeIntegrator    &integrator,
              Oscillator        &system,
@@ -35,8 +35,8 @@ namespace
   }
 } // namespace
 
-// Another object that gets what the first one kept goes on to the last bit as
-// that would, whatever it did before: that is a restart.
+// A restart: an object that gets the data of another one continues to the last
+// bit as that would, whatever it did before.
 TEST(TimeIntegrator, GoesOnWithWhatItKept)
 {
   for (const std::string &name : integrators_with(is_dynamic))
@@ -66,10 +66,10 @@ TEST(TimeIntegrator, GoesOnWithWhatItKept)
     }
 }
 
-// With integrators that say so the equation of motion holds at the end of a
-// step, but for round-off, which the formulas for accelerations divide by the
-// square of the step; with others it holds in between, and at the end but for
-// terms of the step's first order.
+// With integrators that promise it the equation of motion holds at the end of a
+// step up to round-off, which the formulas for accelerations divide by the
+// square of the step; with others it holds in between, and at the end up to
+// terms of first order in the step.
 TEST(TimeIntegrator, BalanceAtEnd)
 {
   for (const std::string &name : integrators_with(is_dynamic))

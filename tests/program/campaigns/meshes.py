@@ -68,7 +68,7 @@ def main():
             if not good:
                 wrong += 1
                 print(f"number {number}: status {status}: {errors}", flush=True)
-        # kB; of the largest process.
+        # The peak memory in MiB, from kB, of the largest process.
         memory = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"{options.damages} damaged meshes: " + ", ".join(f"{n} {ending}" for ending, n in sorted(counts.items())) + f"; at most {memory:.0f} MiB")
     sys.exit(1 if wrong else 0)

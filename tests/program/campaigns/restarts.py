@@ -36,7 +36,8 @@ def kill_many(test, n):
     try:
         while sum(counts.values()) < n:
             kind, ranks = random.choice(list(KINDS)), random.choice((1, 1, 1, 2, 2, 4))
-            # On several ranks Trilinos' factorisation gives other last digits each time, whether a run is disturbed or not.
+            # On several ranks the factorisation of Trilinos gives other last
+            # digits each time, also in undisturbed runs.
             if ranks > 1 and KINDS[kind].get("Linear solver/Type") == "direct":
                 continue
             if (kind, ranks) not in references:
@@ -105,7 +106,7 @@ def stop_many(test, n):
         _, errors = process.communicate(timeout=60)
         longest = max(longest, time.monotonic() - start)
         test.assertEqual(process.returncode, 4, f"{kind}: {errors}")
-        # The last row is that of the state which is saved.
+        # The last row is that of the saved state.
         step = re.search(r"stopped: step (\d+) .*SIGTERM; the run is saved", errors).group(1)
         test.assertTrue(list((run.output / "checkpoint").glob(f"*_{int(step):06}.json")), f"{kind}: {errors}")
         test.assertLessEqual(int(read_history(run.output)[-1]["step"]), int(step))

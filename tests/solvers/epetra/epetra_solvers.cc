@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is built where Trilinos has Epetra, ML and Amesos: its view of a matrix,
-// and the solvers that need it.
+// Parts that are built where Trilinos has Epetra, ML and Amesos: Epetra's view
+// of a matrix, and the solvers that need it.
 
 #include <corotet/solvers/epetra/epetra_matrix.h>
 
@@ -23,8 +23,8 @@ TEST(EpetraMatrix, SolversAreRegistered)
   EXPECT_TRUE(has_preconditioner("direct"));
 }
 
-// The same entries make the same product, but for the order of its sums; new
-// values are seen at once, without another set-up.
+// The view has the same entries, so its products differ only by the order of
+// sums; new values are seen at once, without another set-up.
 TEST(EpetraMatrix, ShowsTheMatrix)
 {
   SpringBox          box({{7, 3, 4}}, true);
@@ -42,7 +42,7 @@ TEST(EpetraMatrix, ShowsTheMatrix)
       box.matrix->vmult(y, x);
       epetra.vmult(z, x);
       EXPECT_GT(y.linfty_norm(), mass / 2 + 1);
-      // Sums of 81 products of size below 20.
+      // The round-off of sums of 81 products below 20.
       EXPECT_LE(largest_difference(y, z), 1e-13);
     }
   const SpringBox other({{7, 3, 4}}, true);
@@ -51,11 +51,11 @@ TEST(EpetraMatrix, ShowsTheMatrix)
 
 // The coarse solver "amg" of p-multigrid has the parameters of section amg. At
 // degree 1 it is all of p-multigrid, so the solution is that of "Type = amg" to
-// the last bit, for every parameter; more sweeps save iterations, and do so
-// below degree 2, too.
+// the last bit, for every parameter; more sweeps save iterations, also as the
+// coarse solver for degree 2.
 TEST(AMG, CoarseSolverHasItsParameters)
 {
-  // More unknowns than the coarsest level may have.
+  // The mesh has more unknowns than the coarsest level may have.
   const std::string cells = "20, 6, 6";
   const auto amg = [](const unsigned int sweeps, const double threshold) {
     return section("amg",
