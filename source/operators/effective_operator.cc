@@ -48,6 +48,17 @@ namespace corotet
            (surface_operator ? surface_operator->round_off(v) : 0.);
   }
 
+  double
+  EffectiveOperator::largest_cause(const Vector &r) const
+  {
+    if (!surface_operator)
+      return noise->largest_cause(r, nullptr);
+    Vector springs;
+    disc.initialize_vector(springs);
+    surface_operator->add_diagonal(springs);
+    return noise->largest_cause(r, &springs);
+  }
+
   void
   EffectiveOperator::update(const double c_K, const double c_M)
   {

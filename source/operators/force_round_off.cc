@@ -89,15 +89,24 @@ namespace corotet
   }
 
   double
-  ForceRoundOff::largest_cause(const Vector &r) const
+  ForceRoundOff::largest_cause(const Vector &r, const Vector *springs) const
   {
-    double largest = 0;
+    // Rows of the springs' matrix are some three times their diagonal.
+    constexpr double of_row  = 3;
+    double           largest = 0;
     for (unsigned int n = 0; n < by_displacement.size(); ++n)
       {
-        double square = 0;
+        double square = 0, of_springs = 0;
         for (unsigned int a = 0; a < 3; ++a)
-          square += r.local_element(3 * n + a) * r.local_element(3 * n + a);
-        largest = std::max(largest, square / by_displacement[n]);
+          {
+            square += r.local_element(3 * n + a) * r.local_element(3 * n + a);
+            if (springs != nullptr)
+              of_springs = std::max(of_springs,
+                                    of_row * springs->local_element(3 * n + a));
+          }
+        largest =
+          std::max(largest,
+                   square / (by_displacement[n] + of_springs * of_springs));
       }
     return std::sqrt(
       dealii::Utilities::MPI::max(largest, r.get_mpi_communicator()));

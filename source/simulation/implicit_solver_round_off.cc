@@ -65,9 +65,9 @@ namespace corotet
   {
     // Round-off of a displacement, and of the rotation of a cell, which is no
     // larger than the body; a number that is never exceeded by it.
-    constexpr double most = 16 * precision;
-    const double cause = effective_operator->force_round_off().largest_cause(r);
-    const double size  = equation.displacement().linfty_norm() + size_of_body();
+    constexpr double most  = 16 * precision;
+    const double     cause = effective_operator->largest_cause(r);
+    const double size = equation.displacement().linfty_norm() + size_of_body();
     // Forces of an assembled matrix have round-off that is not in balance: that
     // of stiff parts moves soft ones.
     const bool result = !linear_solver.is_assembled() && cause <= most * size;

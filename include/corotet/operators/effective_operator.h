@@ -145,6 +145,10 @@ namespace corotet
     double
     round_off(const Vector &v) const;
 
+    /// See ForceRoundOff::largest_cause(). Collective.
+    double
+    largest_cause(const Vector &r) const;
+
     const std::vector<unsigned char> &
     is_prescribed() const
     {

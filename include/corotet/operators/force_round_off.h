@@ -42,10 +42,11 @@ namespace corotet
     }
 
     /// The displacements that cause the forces @p r at single nodes [m]: the
-    /// largest of the forces over what of_displacement() has for 1 m.
-    /// Collective.
+    /// largest of the forces over what of_displacement() has for 1 m and the
+    /// springs on the surface, if @p springs is their diagonal [N/m] and not
+    /// null. Collective.
     double
-    largest_cause(const Vector &r) const;
+    largest_cause(const Vector &r, const Vector *springs) const;
 
   private:
     /// For each owned node, the sum of the squares of the forces that cells
