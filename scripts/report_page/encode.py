@@ -47,6 +47,7 @@ class Encoder:
         self.fields = field_module.fields_of(series, kind)
         self.left_out = []  # fields
         self.not_finite = 0  # states
+        self.not_finite_fields = []
 
     @property
     def is_thinned(self):
@@ -62,12 +63,18 @@ class Encoder:
         return text_of(b"".join(a.tobytes() for a in arrays.values())), [[name, types[a.dtype.kind], a.size] for name, a in arrays.items()]
 
     def state(self, index):
-        """A block of all fields and what describes it; nothing for a state with numbers that are not finite."""
+        """A block of all fields and what describes it; nothing for a state with numbers that are not finite.
+
+        An extra field with such numbers is left out of the page, as a view without it says more than a film without the state."""
         parts, units, ranges = [], [], {}
-        for field in self.fields:
+        for field in list(self.fields):
             values = self.reader(field, index)
             if not np.isfinite(values).all():
-                return None
+                if not field.is_extra:
+                    return None
+                self.fields.remove(field)
+                self.not_finite_fields.append(field)
+                continue
             data, unit = packed(values)
             parts.append(data)
             units.append(unit)
@@ -99,7 +106,10 @@ class Encoder:
     def encode_states(self, wanted):
         n = len(self.series.times)
         indices = np.unique(np.round(np.linspace(0, n - 1, wanted)).astype(int)) if wanted > 1 else [n - 1]
-        found = [self.state(int(i)) for i in indices]
+        n_fields = None
+        while n_fields != len(self.fields):  # a field that is left out is so in all states
+            n_fields = len(self.fields)
+            found = [self.state(int(i)) for i in indices]
         self.not_finite = sum(one is None for one in found)
         found = [one for one in found if one is not None]
         if not found:

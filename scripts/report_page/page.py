@@ -103,7 +103,9 @@ def view_section(run, encoder, states):
         what = "mode" if run.kind == "modes" else "state"
         notes.append(f"{count(len(states), what)} of {n} are in the page, so that it stays below {MAX_BYTES // 1_000_000} MB.")
     if encoder.not_finite:
-        notes.append(f"{count(encoder.not_finite, 'state')} with numbers that are not finite are left out.")
+        notes.append(f"{count(encoder.not_finite, 'state')} with numbers that are not finite {'is' if encoder.not_finite == 1 else 'are'} left out.")
+    if encoder.not_finite_fields:
+        notes.append("Left out, as some numbers are not finite: " + ", ".join(field.name.replace("_", " ") for field in encoder.not_finite_fields) + ".")
     if encoder.left_out:
         notes.append("Left out for size: " + ", ".join(field.name.replace("_", " ") for field in encoder.left_out) + ".")
     if run.kind == "modes":

@@ -95,7 +95,8 @@ namespace corotet
       "'Saint Venant-Kirchhoff', linear in Green's strain, for moderate "
       "strains without strong compression, in which it softens; 'neo-Hookean', "
       "mu / 2 (tr C - 3) - mu ln J + lambda / 2 (ln J)^2, for large strains: "
-      "no cell can be turned inside out. All are the same at small strains.");
+      "no cell can be inside out at the points where forces are computed. All "
+      "are the same at small strains.");
     add_enumeration(prm,
                     "Rotation",
                     rotation,

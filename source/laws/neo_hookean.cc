@@ -37,8 +37,8 @@ namespace corotet
                     C_minus_1[a][b] * C_minus_1[b][a];
         });
         third = determinant(C_minus_1);
-        x =
-          C_minus_1[0][0] + C_minus_1[1][1] + C_minus_1[2][2] + second + third;
+        trace = C_minus_1[0][0] + C_minus_1[1][1] + C_minus_1[2][2];
+        x     = trace + second + third;
         for (int lane = 0; lane < n_lanes<double>; ++lane)
           take_logarithm(lane);
       }
@@ -56,9 +56,9 @@ namespace corotet
       }
 
       Tensor2Lanes F, C_minus_1;
-      Simd<double> J, second{}, third, x;
-      // ln J^2, not a number where J <= 0, and x - ln J^2.
-      Simd<double> logarithm{}, difference{};
+      Simd<double> J, trace, second{}, third, x;
+      // ln J^2, not a number where J <= 0, and tr(C - I) - ln J^2.
+      Simd<double> logarithm{}, excess{};
 
     private:
       static COROTET_ALWAYS_INLINE Simd<double>
@@ -82,13 +82,17 @@ namespace corotet
             const double sum =
               s *
               (1. / 3 + s * (1. / 5 + s * (1. / 7 + s * (1. / 9 + s / 11))));
-            logarithm[lane]  = 2 * y * (1 + sum);
-            difference[lane] = z * y - 2 * y * sum;
+            logarithm[lane] = 2 * y * (1 + sum);
+            // x - ln(1 + x) - I_2 - I_3. At large strains these invariants have
+            // more round-off than trace and logarithm.
+            excess[lane] = std::abs(trace[lane]) < 0.1 ?
+                             z * y - 2 * y * sum - second[lane] - third[lane] :
+                             trace[lane] - logarithm[lane];
           }
         else
           {
-            logarithm[lane]  = 2 * std::log(J[lane]);
-            difference[lane] = z - logarithm[lane];
+            logarithm[lane] = 2 * std::log(J[lane]);
+            excess[lane]    = trace[lane] - logarithm[lane];
           }
         if (!(J[lane] > 0))
           logarithm[lane] = std::numeric_limits<double>::quiet_NaN();
@@ -121,7 +125,7 @@ namespace corotet
       {
         const Kinematics   k(H);
         const Simd<double> energy =
-          0.5 * lame.mu * (k.difference - k.second - k.third) +
+          0.5 * lame.mu * k.excess +
           0.125 * lame.lambda * k.logarithm * k.logarithm;
         return k.J > 0. ? energy :
                           broadcast(std::numeric_limits<double>::infinity());

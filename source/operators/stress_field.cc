@@ -16,9 +16,10 @@ namespace corotet
   double
   StressError::relative() const
   {
-    return energy_norm > 0 ?
-             energy_norm / std::hypot(stress_norm, energy_norm) :
-             0.;
+    // Norms that are not numbers have no ratio.
+    return energy_norm == 0 ?
+             0. :
+             energy_norm / std::hypot(stress_norm, energy_norm);
   }
 
   StressField::StressField(

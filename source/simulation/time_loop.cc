@@ -81,8 +81,7 @@ namespace corotet
     double       dt = end_of_step(1) * (parameters.end_time - start_time);
     if (integrator->is_explicit())
       return solve_first_half_step(0.5 * dt);
-    if (integrator->keeps_energy() ||
-        !system.equation().terms.has_stiff_damping())
+    if (!starts_from_mean_acceleration())
       return system.solve_acceleration(present, start_time);
 
     for (unsigned int halvings = 0;; ++halvings, dt *= 0.5)
@@ -95,6 +94,23 @@ namespace corotet
           if (halvings == parameters.max_halvings)
             return system.solve_acceleration(present, start_time);
         }
+  }
+
+  void
+  TimeLoop::begin_budget()
+  {
+    // Explicit methods have evaluated their first forces already.
+    if (!integrator->is_explicit())
+      system.equation().evaluate(present,
+                                 parameters.start_time,
+                                 integrator->load_factor(0.));
+    budget = std::make_unique<EnergyBudget>(
+      system.equation(),
+      present,
+      parameters.start_time,
+      integrator->is_staggered() ?
+        end_of_step(1) * (parameters.end_time - parameters.start_time) :
+        0.);
   }
 
   const StepRecord &
@@ -117,18 +133,7 @@ namespace corotet
         if (!integrator->is_explicit())
           system.acceleration_solver().release();
       }
-    // Explicit methods have evaluated their first forces already.
-    if (!integrator->is_explicit())
-      system.equation().evaluate(present,
-                                 start_time,
-                                 integrator->load_factor(0.));
-    budget = std::make_unique<EnergyBudget>(
-      system.equation(),
-      present,
-      start_time,
-      integrator->is_staggered() ?
-        end_of_step(1) * (parameters.end_time - parameters.start_time) :
-        0.);
+    begin_budget();
     const StepRecord &record = budget->initial_record();
     energy_supply            = record.kinetic_energy + record.elastic_energy;
     keep_state();
@@ -155,6 +160,18 @@ namespace corotet
           fmt::format("step {}: made in {} parts", record.step, record.parts));
         log.count("step made in parts", "steps made in parts");
       }
+    // Dynamics only: in statics the balance is the error of the work between
+    // load steps.
+    constexpr double much = 0.1;
+    if (is_done() && integrator->is_dynamic() &&
+        record.energy_balance > much * energy_supply)
+      log.warning(
+        fmt::format("energy_balance: {:.3g} J have come out of nothing, and "
+                    "{:.3g} J have been put in: shorter time steps, finer "
+                    "cells or Material/Rotation = quadrature points make such "
+                    "errors smaller",
+                    record.energy_balance,
+                    energy_supply));
     if (is_done() && adaptive)
       {
         log.line(fmt::format("Adaptive step: repeated steps: {}",

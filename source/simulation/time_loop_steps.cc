@@ -166,6 +166,13 @@ namespace corotet
           }
         rejected = to;
         restore_state();
+        if (done == 0 && starts_from_mean_acceleration())
+          {
+            // The mean acceleration is that of a first step of this length.
+            solve_first_acceleration();
+            begin_budget();
+            keep_state();
+          }
         warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
                       adaptive->length());
       }

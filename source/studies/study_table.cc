@@ -99,12 +99,19 @@ namespace corotet
     Error error{name, references, values, {}, {}};
     error.orders.assign(values.size(), nan);
     error.orders_in_time.assign(values.size(), nan);
+    // Round-off, as of a run that is compared with itself, has no order.
+    double largest = 0;
+    for (const double value : values)
+      largest = std::max(largest, value);
+    const double round_off = 1e-12 * largest;
     for (unsigned int i = 0; i < values.size(); ++i)
       // The last assignment is from the nearest such result before this one.
       for (unsigned int j = 0; j < i; ++j)
         {
           const StudyCase &coarse = results[j].study_case;
           const StudyCase &fine   = results[i].study_case;
+          if (values[i] <= round_off)
+            continue;
           if (is_refinement_of(fine, coarse))
             error.orders[i] =
               order(values[j], values[i], results[j].h, results[i].h);

@@ -258,3 +258,25 @@ TEST(NeoHookean, EnergyIsAsAccurateAsTheStrain)
           << e;
       }
 }
+
+// Far stretched, also without a change of volume: mu / 2 (tr C - 3) - mu ln J +
+// lambda / 2 (ln J)^2 as it stands has no cancellation.
+TEST(NeoHookean, EnergyOfLargeStretches)
+{
+  const auto law = neo_hookean_law();
+  for (const double s : {3., 100., 1000.})
+    for (const bool is_isochoric : {false, true})
+      {
+        const double t = is_isochoric ? 1 / std::sqrt(s) : s;
+        Tensor<2, 3> H;
+        H[0][0] = s - 1;
+        H[1][1] = H[2][2] = t - 1;
+        const double ln   = std::log(s * t * t);
+        EXPECT_NEAR(law->energy_density(soft, H) /
+                      (soft.mu * (0.5 * (s * s + 2 * t * t - 3) - ln) +
+                       0.5 * soft.lambda * ln * ln),
+                    1,
+                    1e-13)
+          << s;
+      }
+}

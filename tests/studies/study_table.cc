@@ -78,6 +78,17 @@ TEST(StudyTable, Orders)
   EXPECT_TRUE(contains(csv, ",7.25,0.125,3,0.25,2,0.5,2,0.25,2,"));
 }
 
+// The error of a run that is compared with itself is round-off.
+TEST(StudyTable, NoOrderOfRoundOff)
+{
+  StudyResult coarse = made_up(2, 0), fine = made_up(2, 1);
+  for (StudyResult *const result : {&coarse, &fine})
+    result->quantities.clear();
+  fine.errors->error    = {1e-17, 1e-17, 1e-17};
+  const std::string csv = StudyTable({coarse, fine}, {}).csv();
+  EXPECT_TRUE(contains(csv, ",1e-17,nan,1e-17,nan,1e-17,nan,")) << csv;
+}
+
 TEST(StudyTable, OrdersInTime)
 {
   const StudyTable table(

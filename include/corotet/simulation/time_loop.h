@@ -275,6 +275,15 @@ namespace corotet
     /// midpoint rule has no acceleration at the start. Throws ComputationError.
     StageReport
     solve_first_acceleration();
+    bool
+    starts_from_mean_acceleration() const
+    {
+      return !integrator->keeps_energy() &&
+             system.equation().terms.has_stiff_damping();
+    }
+    /// Makes the budget of the state at the start.
+    void
+    begin_budget();
     /// The same for explicit methods: the change of the velocity in the first
     /// half step, divided by its length @p half [s].
     StageReport
