@@ -66,7 +66,7 @@ namespace corotet
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       {
         const Hdf5Silence silence;
-        const Hdf5Id      access(H5Pcreate(H5P_FILE_ACCESS));
+        const Hdf5Id      access = unlocked_access();
         // HDF5 1.10, which virtual tables need, makes groups smaller, too.
         check(H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110));
         file = Hdf5Id(H5Fcreate(temporary.c_str(),

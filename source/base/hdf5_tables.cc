@@ -17,7 +17,7 @@ namespace corotet
     : path(path)
   {
     const Hdf5Silence silence;
-    file = Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    file = Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, unlocked_access()));
     if (file < 0)
       throw InputError("",
                        path + ": cannot be opened as a file of HDF5: is the "

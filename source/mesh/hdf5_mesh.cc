@@ -47,7 +47,7 @@ namespace corotet
   is_hdf5_mesh(const std::string &path)
   {
     const Hdf5Silence silence;
-    const Hdf5Id      file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+    const Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, unlocked_access()));
     return file >= 0 && H5Aexists(file, mark_of_mesh) > 0;
   }
 

@@ -56,7 +56,7 @@ class Report(ProgramTest):
             case, *settings = {
                 "motion": ("cantilever", "Discretization/Degree = 2", "Mesh/box/Cells = 8, 1, 1", "Time integration/End time = 0.3",
                            "Output/Stress = nodes"),
-                "sphere": ("lame_sphere",), "modes": ("plate_modes",), "verification": ("verification/patch_degree_2",)}[name]
+                "sphere": ("lame_sphere", "Material/Young's modulus = 1"), "modes": ("plate_modes",), "verification": ("verification/patch_degree_2",)}[name]
             self.run_case(case, self.results / name, *settings)
         self.make(self.results / name)
         return self.results / name

@@ -78,6 +78,16 @@ namespace corotet
     hid_t id = H5I_INVALID_HID;
   };
 
+  /// Properties for opening files without locks, which some file systems of
+  /// clusters refuse: no file is open for writing when others read it.
+  inline Hdf5Id
+  unlocked_access()
+  {
+    Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS));
+    H5Pset_file_locking(access, false, true);
+    return access;
+  }
+
   /**
    * Keeps HDF5 from printing its error stack during its lifetime: an Error
    * tells the user.
