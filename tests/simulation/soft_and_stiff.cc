@@ -69,3 +69,38 @@ TEST(SoftAndStiff, AssembledMatrixOfAPlate)
   const Vector u = sink("matrix-free");
   EXPECT_LE(largest_difference(sink("assembled"), u), 1e-5 * u.linfty_norm());
 }
+
+// A light end of a heavy body, whose mass is 1e-7 of the other end's, has the
+// fastest modes: as sqrt(E / rho), to the estimates' tolerance, as the heavy
+// part holds it as a wall does. With E / rho 1.1 times that of the other end
+// its modes are next to those of this end.
+TEST(SoftAndStiff, StableStepOfLightParts)
+{
+  const auto step_of_light_end = [](const double ratio) {
+    BodyInput input(
+      box_mesh("7, 1, 1", "14, 2, 2") + element_text(1, "diagonal scaling") +
+        section("Selections",
+                {{"Regions",
+                  "heavy: box -1 -1 -1 1 9 9, light: box 6 -1 -1 8 9 9, "
+                  "middle: box 1 -1 -1 6 9 9"}}) +
+        material_type("linear") +
+        section("Material",
+                {{"Young's modulus",
+                  fmt::format("heavy: 3e6, middle: 1e6, light: {}",
+                              3e6 * 1e-7 * ratio)},
+                 {"Density", "heavy: 1000, middle: 1000, light: 1e-4"}}),
+      MPI_COMM_WORLD);
+    corotet::Body    body(input.parameters, "", MPI_COMM_WORLD, input.log);
+    StructuralSystem system(body,
+                            input.parameters,
+                            input.wall_times,
+                            input.log);
+    State            state;
+    system.initialize(state);
+    return 2 / system.acceleration_solver().largest_frequencies(state).all;
+  };
+  EXPECT_NEAR(step_of_light_end(1.1) * std::sqrt(1.1) /
+                (step_of_light_end(10) * std::sqrt(10.)),
+              1,
+              1e-3);
+}
