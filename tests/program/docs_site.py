@@ -47,7 +47,7 @@ class DocsSite(ProgramTest):
         # Nothing beside the site is touched, and no temporary files are left.
         self.assertEqual(beside.read_text(encoding="utf-8"), "kept")
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["docs-pages", "site"])
-        self.has(site / "doc" / "parameters" / "damping.html", "Stiffness coefficient", "alpha_K [s] of Rayleigh damping", "critical damping at 5 Hz",
+        self.has(site / "doc" / "parameters" / "damping.html", "Stiffness coefficient", "alpha_K [s] of the stiffness in Rayleigh damping", "critical damping at 5 Hz",
                  '<span class="na"> Frequencies </span>', "shaken_mast")
         self.has(site / "doc" / "physics.html", "MathJax.js", r"\zeta = \frac{\alpha_M}{2 \omega} + \frac{\alpha_K \omega}{2}",
                  'href="references.html#chung1993"')
