@@ -93,10 +93,12 @@ namespace corotet
   bool
   Newton::Iteration::has_converged()
   {
-    return is_round_off() || increment_is_round_off ||
+    // The last question is the most expensive one.
+    return increment_is_round_off ||
            (has_small_residual() &&
             (problem.is_linear() ||
-             error <= parameters.increment_tolerance * size));
+             error <= parameters.increment_tolerance * size)) ||
+           is_round_off();
   }
 
   NewtonReport::RoundOff
