@@ -12,6 +12,7 @@
 
 #include "../refusal.h"
 #include "complete_run.h"
+#include "stable_step.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -81,20 +82,6 @@ namespace
              fmt::format("{0}*0.01*x^2; {0}*0.02*y*z; {0}*0.02*x*y", amplitude),
              fmt::format("-{0}*3*y; {0}*3*x; {0}*0.5*x^2", amplitude)) +
            integration;
-  }
-
-  double
-  stable_step(const std::string &bar)
-  {
-    BodyInput        input(bar, MPI_COMM_WORLD);
-    corotet::Body    body(input.parameters, "", MPI_COMM_WORLD, input.log);
-    StructuralSystem system(body,
-                            input.parameters,
-                            input.wall_times,
-                            input.log);
-    State            state;
-    system.initialize(state);
-    return 2 / system.acceleration_solver().largest_frequencies(state).all;
   }
 } // namespace
 

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "complete_run.h"
+#include "stable_step.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -77,27 +78,18 @@ TEST(SoftAndStiff, AssembledMatrixOfAPlate)
 TEST(SoftAndStiff, StableStepOfLightParts)
 {
   const auto step_of_light_end = [](const double ratio) {
-    BodyInput input(
+    return stable_step(
       box_mesh("7, 1, 1", "14, 2, 2") + element_text(1, "diagonal scaling") +
-        section("Selections",
-                {{"Regions",
-                  "heavy: box -1 -1 -1 1 9 9, light: box 6 -1 -1 8 9 9, "
-                  "middle: box 1 -1 -1 6 9 9"}}) +
-        material_type("linear") +
-        section("Material",
-                {{"Young's modulus",
-                  fmt::format("heavy: 3e6, middle: 1e6, light: {}",
-                              3e6 * 1e-7 * ratio)},
-                 {"Density", "heavy: 1000, middle: 1000, light: 1e-4"}}),
-      MPI_COMM_WORLD);
-    corotet::Body    body(input.parameters, "", MPI_COMM_WORLD, input.log);
-    StructuralSystem system(body,
-                            input.parameters,
-                            input.wall_times,
-                            input.log);
-    State            state;
-    system.initialize(state);
-    return 2 / system.acceleration_solver().largest_frequencies(state).all;
+      section("Selections",
+              {{"Regions",
+                "heavy: box -1 -1 -1 1 9 9, light: box 6 -1 -1 8 9 9, "
+                "middle: box 1 -1 -1 6 9 9"}}) +
+      material_type("linear") +
+      section("Material",
+              {{"Young's modulus",
+                fmt::format("heavy: 3e6, middle: 1e6, light: {}",
+                            3e6 * 1e-7 * ratio)},
+               {"Density", "heavy: 1000, middle: 1000, light: 1e-4"}}));
   };
   EXPECT_NEAR(step_of_light_end(1.1) * std::sqrt(1.1) /
                 (step_of_light_end(10) * std::sqrt(10.)),
