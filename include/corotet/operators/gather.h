@@ -27,8 +27,7 @@ namespace corotet
       return __builtin_shufflevector(a, b, i...);
     }
 
-    /// The values node(4 b + r), four numbers each, for b = first, first + 1,
-    /// ..
+    /// The values node(4 b + r), four numbers each, for b from first on.
     template <int n_blocks, typename Node>
     COROTET_ALWAYS_INLINE auto
     row(const Node &node, const int r, const int first = 0)
