@@ -54,13 +54,13 @@ def comment_of(deck):
 
 
 def title_of(comment):
-    """The first clause of a deck's comment, without the numbers that it goes on with."""
+    """The first clause of a deck's comment, without the numbers that may follow in it."""
     sentence = re.split(r"[.:;]\s", " ".join(comment.split()) + " ")[0]
     return re.split(r", [^,]* = ", sentence)[0]
 
 
 def error_of(outcome):
-    """The largest error of a deck's checks over its tolerance."""
+    """The largest ratio of error to tolerance among the checks of a deck, as a text."""
     ratios = []
     for row in outcome.rows:
         if row["tolerance"] not in ("above", "below"):
@@ -72,7 +72,7 @@ def error_of(outcome):
 
 
 def filled(text):
-    """A paragraph; other pages that it names become links."""
+    """The text as a paragraph with lines of the right length. Names of other pages in it become links."""
     text = re.sub(r"\bdoc/(\w+\.md)", r"[doc/\1](../\1)", text)
     return textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False)
 
@@ -90,7 +90,7 @@ def index_row(outcome):
 
 
 def page(outcome, caption):
-    """A deck's page: its comment, its picture, its source, its tolerances, what it found."""
+    """The page of a deck: its comment, its picture, its source, the reason of its tolerances, and the table of its checks."""
     name = outcome.deck.stem
     comment = comment_of(outcome.deck)
     text = re.sub(r"(?:^ +.*\n)+", lambda formulas: f"\n{textwrap.indent(formulas.group(0), '    ')}\n", comment, flags=re.MULTILINE)
@@ -107,7 +107,7 @@ def page(outcome, caption):
 
 
 def write(outcomes, verdict, time):
-    """Writes the index and all pages, draws their pictures, and removes those of decks that are no more."""
+    """Writes the index and all pages, and draws their pictures. Removes pages and pictures of decks that no longer exist."""
     names = {outcome.deck.stem for outcome in outcomes}
     unknown = set(verification_pictures.LOOKS) - names
     assert not unknown, f"LOOKS of scripts/verification_pictures.py has decks that are no more: {', '.join(sorted(unknown))}"
