@@ -243,7 +243,7 @@ def draw_look(figure, run, look):
     if look.plot:
         look.plot(right, run.history())
     if not look.body:
-        return "What is computed, on what theory has."
+        return "Computed histories, drawn over those of theory."
     several = look.all_states or len(look.times) > 1
     return f"The {'displaced body at several times' if several else 'last state'} with its cells, and the edges of the body at rest" + \
         ("; beside that, histories of the run." if look.plot else ".")
@@ -256,10 +256,10 @@ def draw_results(figure, outcome):
     exact = None if look else exact_history(outcome)
     if (outcome.directory / "modes.csv").exists():
         draw_modes(figure, run, look or Look())
-        return "Shapes of the lowest modes, one of each frequency; colours are displacements."
+        return "Shapes of the lowest modes, one mode for each frequency; colours show displacements."
     if exact:
         draw_exact(figure, run.history(), *exact)
-        return f"The computed history on the exact one, and the difference: `{exact[0]}` is to be `{exact[1]}`."
+        return f"The computed history, drawn over the exact one, and the difference of both: the exact value of `{exact[0]}` is `{exact[1]}`."
     return draw_look(figure, run, look or Look())
 
 
