@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Functions that the scripts for results share: mistakes are told in one line, progress is shown by a bar, and a file is written as a whole or not at
-all. Needs Python alone."""
+"""Functions that the scripts for results share: mistakes are told in one line, progress is shown by a bar, and a file is written as a whole or not
+at all. Needs Python alone."""
 
 import argparse
 import contextlib
@@ -63,8 +63,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_command(name, main):
-    """Calls main. The exit status of the process is 0 after success, 1 for wrong input, 3 if the machine failed, and 128 plus the number of a signal
-    that ended it."""
+    """Calls main. The exit status of the process is 0 after success, 1 for wrong input, 3 if the machine failed, and 128 plus the number of a
+    signal that ended it."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         main()
@@ -113,7 +113,8 @@ def check_folder(path):
 
 
 def check_target(path, overwrite):
-    """Raises WrongInput unless a file may be written at the path. A file that these scripts have not made is replaced only if @p overwrite is set."""
+    """Raises WrongInput unless a file may be written at the path. A file that these scripts have not made is replaced only if @p overwrite is
+    set."""
     check_folder(path)
     if path.is_dir():
         raise WrongInput(f"{path} cannot be written: it is a folder")

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Cuts Lagrange tetrahedra, with nodes in VTK's order, into small straight pieces: their surface into triangles, their inside into tetrahedra. Needs
-NumPy."""
+"""Cuts Lagrange tetrahedra, with nodes in VTK's order, into small straight pieces: their surface into triangles, their inside into
+tetrahedra. Needs NumPy."""
 
 import itertools
 
@@ -23,8 +23,8 @@ def tetrahedron_nodes(degree):
 
 
 def shape_functions(nodes, degree, at):
-    """Values of the shape functions of the nodes (barycentric coordinates times the degree) at the points @p at (barycentric coordinates): a row for each
-    point."""
+    """Values of the shape functions of the nodes (barycentric coordinates times the degree) at the points @p at (barycentric coordinates): a
+    row for each point."""
     result = np.ones((len(at), len(nodes)))
     for j, node in enumerate(nodes):
         for i, n in enumerate(node):
@@ -34,7 +34,8 @@ def shape_functions(nodes, degree, at):
 
 
 def triangle_lattice(n):
-    """Cuts a triangle into n^2 triangles, with n parts along each edge. Returns their vertices (barycentric coordinates times n) and the triangles."""
+    """Cuts a triangle into n^2 triangles, with n parts along each edge. Returns their vertices (barycentric coordinates times n) and the
+    triangles."""
     points = [(n - j - k, j, k) for k in range(n + 1) for j in range(n + 1 - k)]
     number = {point: i for i, point in enumerate(points)}
     triangles = []
@@ -47,8 +48,8 @@ def triangle_lattice(n):
 
 
 def tetrahedron_lattice(n):
-    """Cuts a tetrahedron into n^3 tetrahedra of the same volume (Kuhn's), with n parts along each edge. Returns their vertices (barycentric coordinates
-    times n) and the tetrahedra."""
+    """Cuts a tetrahedron into n^3 tetrahedra of the same volume (Kuhn's), with n parts along each edge. Returns their vertices (barycentric
+    coordinates times n) and the tetrahedra."""
     points = [(n - a, a - b, b - c, c) for a in range(n + 1) for b in range(a + 1) for c in range(b + 1)]
     number = {point: i for i, point in enumerate(points)}
     tetrahedra = []
@@ -63,8 +64,8 @@ def tetrahedron_lattice(n):
 
 
 class Pieces:
-    """Curved faces or cells, cut into small straight pieces. The vertices of these are combinations of nodes: `at` interpolates values from nodes to
-    vertices.
+    """Curved faces or cells, cut into small straight pieces. The vertices of these are combinations of nodes: `at` interpolates values from
+    nodes to vertices.
 
     `simplices` has the vertices of each straight piece, `owners` the cell that it belongs to.
     """
@@ -94,8 +95,8 @@ class Pieces:
 
 
 def unique_rows(rows):
-    """Finds sets of equal rows of integers, which must be -1 or more. Returns the index of the first row of each set, and for each row the number of its
-    set."""
+    """Finds sets of equal rows of integers, which must be -1 or more. Returns the index of the first row of each set, and for each row the
+    number of its set."""
     widths = [max(int(column.max()) + 2, 2).bit_length() for column in rows.T]
     words, used = [np.zeros(len(rows), dtype=np.uint64)], 0
     for column, width in zip(rows.T, widths):
@@ -113,8 +114,8 @@ def unique_rows(rows):
 
 
 class Surface(Pieces):
-    """The surface of a body, that is all faces that belong to one cell only, as triangles that are counter-clockwise seen from outside. Each face is cut
-    into subdivisions^2 triangles; if subdivisions is the degree, the vertices are the nodes."""
+    """The surface of a body, that is all faces that belong to one cell only, as triangles that are counter-clockwise seen from outside. Each
+    face is cut into subdivisions^2 triangles; if subdivisions is the degree, the vertices are the nodes."""
 
     def __init__(self, cells, degree, subdivisions):
         reference = tetrahedron_nodes(degree)
@@ -136,8 +137,8 @@ class Surface(Pieces):
         super().__init__(faces[alone], nodes, triangle_nodes, degree, triangle_lattice(subdivisions), cell)
 
     def lines(self, points, angle=None):
-        """Lines to draw, as pairs of vertices: the edges of all faces, or with an angle [degrees] only the edges where the surface is folded by more than
-        the angle."""
+        """Lines to draw, as pairs of vertices: the edges of all faces, or with an angle [degrees] only the edges where the surface is folded
+        by more than the angle."""
         sides = np.sort(self.simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         triangle = np.repeat(np.arange(len(self.simplices)), 3)
         order = np.lexsort(sides.T)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Classes and functions that the scripts measure_* share: runs of the program, which are kept for the next call, and the page that a script writes."""
+"""Classes and functions that the scripts measure_* share: runs of the program, which are kept for the next call, and the page that a
+script writes."""
 
 import argparse
 import csv
@@ -31,7 +32,8 @@ N_SIDE_BY_SIDE = 2
 
 
 class Results:
-    """The results of a run. The status is done, failed, or late if the run took too long and was stopped. The processor time is in s."""
+    """The results of a run. The status is done, failed, or late if the run took too long and was stopped. The processor time is in
+    s."""
 
     def __init__(self, directory, status, processor_time):
         self.directory = directory
@@ -126,8 +128,8 @@ class Runs:
 
 
 class Page:
-    """The page that the sections of a script write: its text, and the requirements that are not met. Pictures go to the folder pictures beside the page;
-    their names begin with the name of the page."""
+    """The page that the sections of a script write: its text, and the requirements that are not met. Pictures go to the folder
+    pictures beside the page; their names begin with the name of the page."""
 
     def __init__(self, file):
         self.pictures = file.parent / "pictures"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Parts of the pictures of the documentation: states of a run, displaced surfaces, colour bars. Works without a display. Needs PyVista and matplotlib
-(packages of scripts/packages.txt)."""
+"""Parts of the pictures of the documentation: states of a run, displaced surfaces, colour bars. Works without a display. Needs PyVista and
+matplotlib (packages of scripts/packages.txt)."""
 
 import pathlib
 
@@ -90,7 +90,8 @@ def add_image(figure, axes, image, limits, title):
 
 
 def cell_edges(mesh, angle=30):
-    """The edges of cells in a displaced surface: lines between triangles that belong to different cells, or that meet at an edge of the body."""
+    """The edges of cells in a displaced surface: lines between triangles that belong to different cells, or that meet at an edge of the
+    body."""
     triangles = mesh.regular_faces
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     owners = np.repeat(np.arange(len(triangles)), 3)

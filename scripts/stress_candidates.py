@@ -9,7 +9,8 @@ import math
 
 import numpy as np
 
-# Smallest ratio of the least to the largest eigenvalue of the normal equations that a fit may have, by degree, as in the program.
+# Smallest ratio of the least to the largest eigenvalue of the normal equations that a fit may have, by degree, as in the
+# program.
 LEAST = {1: 2e-2, 2: 3e-3, 3: 3e-4}
 LEAST_OF_LAYERS = {1: 2e-2, 2: 5e-4, 3: 5e-5}
 ORDER = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
@@ -48,8 +49,8 @@ def stiffness_points(degree):
 
 
 class Recovery:
-    """Recovers stress at the nodes. points, cells, displacement: places of the nodes, nodes of the cells and displacement at the nodes, as VTK has them;
-    parametric: reference coordinates of the nodes of a cell; lame: lambda and mu."""
+    """Recovers stress at the nodes. points, cells, displacement: places of the nodes, nodes of the cells and displacement at the
+    nodes, as VTK has them; parametric: reference coordinates of the nodes of a cell; lame: lambda and mu."""
 
     def __init__(self, points, cells, displacement, parametric, lame):
         self.points, self.cells, self.displacement, self.lame = points, cells, displacement, lame
@@ -103,8 +104,8 @@ class Recovery:
         return cells
 
     def fit(self, vertex, n_layers=1, degree=None, decay=0, before=()):
-        """Fits a polynomial to the raw stress around a vertex, less the polynomials in @p before. Returns its centre, scale, exponents and
-        coefficients. If a polynomial of full degree is badly determined, the degree is one less."""
+        """Fits a polynomial to the raw stress around a vertex, less the polynomials in @p before. Returns its centre, scale,
+        exponents and coefficients. If a polynomial of full degree is badly determined, the degree is one less."""
         least = 0 if degree is not None else (LEAST if n_layers == 1 else LEAST_OF_LAYERS)[self.degree]
         cells = self.layers(vertex, n_layers)
         corners = self.points[self.cells[cells, :4].ravel()]
@@ -122,8 +123,9 @@ class Recovery:
         return centre, scale, lower, np.linalg.solve(normal, (basis * weights[:, None]).T @ stress)
 
     def recovered(self, at_surface, inner_first=False):
-        """Stress at the nodes, from polynomials of the vertices around them. at_surface(vertex) gives the polynomials of a vertex at the surface,
-        whose sum counts. inner_first: nodes that belong to patches of inner vertices take only the polynomials of these."""
+        """Stress at the nodes, from polynomials of the vertices around them. at_surface(vertex) gives the polynomials of a
+        vertex at the surface, whose sum counts. inner_first: nodes that belong to patches of inner vertices take only the
+        polynomials of these."""
         sums, weights = np.zeros((3, len(self.points), 6)), np.zeros((3, len(self.points)))
         for v in self.vertices:
             fits = [] if self.is_surface[v] else [self.fit(v)]

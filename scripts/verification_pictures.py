@@ -2,8 +2,9 @@
 # Copyright (C) 2026 by the corotet authors
 """Draws the pictures of verification decks, doc/pictures/verification/*.png, from their results.
 
-The kind of picture follows from the results: the shapes of the lowest modes; the errors of a study over the size of cells; a computed history and the exact
-one if a check compares a column with a formula of time; else the displaced body. LOOKS has other settings for decks that these pictures do not show well.
+The kind of picture follows from the results: the shapes of the lowest modes; the errors of a study over the size of cells; a computed history and the
+exact one if a check compares a column with a formula of time; else the displaced body. LOOKS has other settings for decks that these pictures do not show
+well.
 """
 
 import csv

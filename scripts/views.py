@@ -15,8 +15,8 @@ def direction_of(word):
 
 
 class View:
-    """A view of the body: the vectors `right`, `up` and `towards` the eye, the point `centre` in the middle of the picture, and the `height` [m] of the
-    picture at that point. With a `distance` [m] of the eye from the centre, the view is a perspective."""
+    """A view of the body: the vectors `right`, `up` and `towards` the eye, the point `centre` in the middle of the picture, and the `height` [m]
+    of the picture at that point. With a `distance` [m] of the eye from the centre, the view is a perspective."""
 
     def __init__(self, size, towards, up):
         self.size = size

@@ -52,7 +52,8 @@ def with_references(text, page):
 
 
 def with_links(text, page, pages):
-    """The text, with links between pages changed to those of the site. Other files that the text links to are copied to the same place in the site."""
+    """The text, with links between pages changed to those of the site. Other files that the text links to are copied to the same place in the
+    site."""
     folder = os.path.dirname(page)
 
     def target(match):

@@ -2,8 +2,8 @@
 # Copyright (C) 2026 by the corotet authors
 """Mends two things that Debian's build of the theme Furo lacks.
 
-- The script of the theme is two modules of JavaScript, one of which imports the other. Browsers load modules from servers only, not from a folder. So both
-  modules are put into one plain script, which lets the reader choose light or dark, and marks the current place in the contents of a page.
+- The script of the theme is two modules of JavaScript, one of which imports the other. Browsers load modules from servers only, not from a folder. So
+  both modules are put into one plain script, which lets the reader choose light or dark, and marks the current place in the contents of a page.
 - If the reader has chosen neither light nor dark, the system's choice should hold. The style rules for that are missing; they are made as a copy of the
   rules for dark.
 """

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Fields that the surface can be coloured by: their values at its nodes. Data of cells become means over the cells of a node, for each region by itself."""
+"""Fields that the surface can be coloured by: their values at its nodes. Data of cells become means over the cells of a node, for each region by
+itself."""
 
 import dataclasses
 

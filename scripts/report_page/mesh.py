@@ -80,8 +80,8 @@ class TimeSeries:
 
 
 class Quality:
-    """The quality of each cell, measured at the straight tetrahedron through its vertices: the smallest dihedral angle [degrees], the aspect ratio
-    (longest edge over 2 sqrt(6) times the radius of the inscribed sphere, 1 for a regular tetrahedron) and the volume [m^3]."""
+    """The quality of each cell, measured at the straight tetrahedron through its vertices: the smallest dihedral angle [degrees], the aspect
+    ratio (longest edge over 2 sqrt(6) times the radius of the inscribed sphere, 1 for a regular tetrahedron) and the volume [m^3]."""
 
     def __init__(self, points, cells):
         x = points[cells[:, :4]]

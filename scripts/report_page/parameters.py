@@ -10,7 +10,8 @@ import re
 import shutil
 import subprocess
 
-# Entries that are not listed: the place of results is no part of the case, and checks have a section of the page to themselves.
+# Entries that are not listed: the place of results is no part of the case, and checks have a section of the page to
+# themselves.
 LEFT_OUT = re.compile("Output/(Directory|Overwrite)|Verification/.*")
 
 
@@ -43,8 +44,8 @@ def read_parameters(text):
 
 
 def find_program():
-    """The path of the program corotet: the one of the build or installation that this script belongs to, else the one that a shell would start, or
-    None."""
+    """The path of the program corotet: the one of the build or installation that this script belongs to, else the one that a
+    shell would start, or None."""
     here = pathlib.Path(__file__)
     for path in (here.absolute(), here.resolve()):
         for folder in path.parents:

@@ -64,7 +64,8 @@ def number_or_text(text):
 
 
 def read_table(path):
-    """The columns of a table: {name: values}. Values are numbers, or texts if they are not numbers. A last row that is not yet complete is left out."""
+    """The columns of a table: {name: values}. Values are numbers, or texts if they are not numbers. A last row that is not
+    yet complete is left out."""
     try:
         names, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
     except (ValueError, csv.Error) as error:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The surface of a mesh. Its faces are patches of the degree of the cells. They are cut into triangles, which share vertices where the body is smooth.
+"""The surface of a mesh. Its faces are patches of the degree of the cells. They are cut into triangles, which share vertices where the body is
+smooth.
 
-Points of a face whose barycentric coordinates are multiples of 1/s form a lattice. They are numbered by (i, j), the shares of the second and of the third
-corner times s, i running first. The nodes of a face of degree p are the lattice with s = p.
+Points of a face whose barycentric coordinates are multiples of 1/s form a lattice. They are numbered by (i, j), the shares of the second and of the
+third corner times s, i running first. The nodes of a face of degree p are the lattice with s = p.
 """
 
 import numpy as np
@@ -98,7 +99,8 @@ def edge_normals(points, faces, degree):
 
 
 class Surface:
-    """The surface as patches, cut into s parts along each edge. The rows of the argument `faces` are the nodes of the patches, `regions` their regions.
+    """The surface as patches, cut into s parts along each edge. The rows of the argument `faces` are the nodes of the patches, `regions` their
+    regions.
 
     nodes, node_regions: the nodes on the surface, as numbers in the file, and their regions; a node in several regions is repeated for each
     faces: the nodes of the patches, as indices into `nodes`
@@ -132,8 +134,8 @@ class Surface:
         self.faces = number.reshape(faces.shape)
 
     def pair_edges(self, points, faces, regions):
-        """Finds the edges of the surface. Returns for each the edge of a face that it is (3 face + edge), the edge of the other face that it is (-1: none,
-        or several), and whether the body has an edge there, so that the surface is not smooth."""
+        """Finds the edges of the surface. Returns for each the edge of a face that it is (3 face + edge), the edge of the other face that it is (-1:
+        none, or several), and whether the body has an edge there, so that the surface is not smooth."""
         corners = faces[:, [0, self.degree, -1]]
         ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
         order = np.lexsort(ends.T)
@@ -181,8 +183,8 @@ class Surface:
 
 
 def roughened(points, triangles):
-    """Moves points off the surface by small distances, at random but always the same. VTK's decimation removes points from flat parts first, where fields
-    may still vary; on a rough surface it removes points everywhere."""
+    """Moves points off the surface by small distances, at random but always the same. VTK's decimation removes points from flat parts first, where
+    fields may still vary; on a rough surface it removes points everywhere."""
     x = points[triangles]
     lengths = np.linalg.norm(x - np.roll(x, -1, axis=1), axis=2)
     shortest = np.full(len(points), np.inf)
@@ -196,8 +198,8 @@ def roughened(points, triangles):
 
 
 def decimated(points, triangles, regions, target):
-    """Thins the triangles, region by region. They keep some of the points; points at the ends of regions and of holes stay. Returns triangles and their
-    regions."""
+    """Thins the triangles, region by region. They keep some of the points; points at the ends of regions and of holes stay. Returns triangles and
+    their regions."""
     found = [decimated_region(points, triangles[regions == region], 1 - target / len(triangles)) for region in np.unique(regions)]
     counts = [len(rows) for rows in found]
     return np.concatenate(found), np.repeat(np.unique(regions), counts)

@@ -51,7 +51,8 @@ def plain(value, digits=DIGITS):
 
 
 def number(value, key="", digits=DIGITS):
-    """A number as by plain(), in an element that also has all its digits, which are shown under the pointer. @p key is the name of the element."""
+    """A number as by plain(), in an element that also has all its digits, which are shown under the pointer. @p key is the name of the
+    element."""
     if value is None:
         return "–"
     name = f' data-key="{escape(key)}"' if key else ""

@@ -22,8 +22,8 @@ function mapped(name, share) {
   return [0, 1, 2].map((c) => Math.round(table[below][c] + (place - below) * (table[below + 1][c] - table[below][c])));
 }
 
-/** The colours from low to high, each [r, g, b]. If the middle of a signed option lies between low and high, values at equal distances above and below
- * it have colours of equal strength. */
+/** The colours from low to high, each [r, g, b]. If the middle of a signed option lies between low and high, values at equal distances above
+ * and below it have colours of equal strength. */
 function colourRow(option, low, high, bands) {
   if (option.names) return option.names.map((_, i) => channels(HUES[i % HUES.length]));
   const n = bands ? BANDS : SMOOTH;

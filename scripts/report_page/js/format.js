@@ -30,7 +30,8 @@ function plainNumber(value, digits = 4) {
   return text.replace('-', MINUS);
 }
 
-/** The value times the factor, with enough decimals to tell the sorted values, times the factor, apart: to a hundredth of their smallest distance. */
+/** The value times the factor, with enough decimals to tell the sorted values, times the factor, apart: to a hundredth of their
+ * smallest distance. */
 function withDecimals(value, values, factor) {
   const gaps = values.slice(1).map((one, k) => factor * (one - values[k])).filter((gap) => gap > 0);
   const gap = gaps.length ? Math.min(...gaps) : Math.abs(factor * value) / 10;

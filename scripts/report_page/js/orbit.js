@@ -11,7 +11,8 @@ const LOOKS = {
 };
 
 class Orbit {
-  /** @p moved is called after each change of the camera; @p clicked is called with the place in pixels after a click or tap that was no drag. */
+  /** @p moved is called after each change of the camera; @p clicked is called with the place in pixels after a click or tap that
+   * was no drag. */
   constructor(canvas, camera, moved, clicked) {
     Object.assign(this, { canvas, camera, moved, clicked });
     this.target = new THREE.Vector3();

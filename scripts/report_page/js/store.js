@@ -27,8 +27,8 @@ async function readGeometry(view) {
   return arrays;
 }
 
-/** Reads the fields of a state: {name: {values, components, unit}}. Values are 16-bit numbers, in multiples of the unit: for each component the values at
- * all nodes. */
+/** Reads the fields of a state: {name: {values, components, unit}}. Values are 16-bit numbers, in multiples of the unit: for each
+ * component the values at all nodes. */
 async function readState(view, k) {
   const bytes = new Uint8Array(await bytesOf(`state-${k}`));
   const n = view.nodes;

@@ -24,7 +24,8 @@ class Surface {
     this.colours = new Float32Array(2 * this.nVertices).fill(0.5);
   }
 
-  /** Finds for each vertex the nodes that it depends on, and their weights: the nodes of its patch whose shape functions are not zero at the vertex. */
+  /** Finds for each vertex the nodes that it depends on, and their weights: the nodes of its patch whose shape functions are not zero at
+   * the vertex. */
   prepareWeights({ places, nodesOfFace }) {
     const ofPlace = Array.from({ length: places }, (_, place) => {
       const all = this.weights.subarray(place * nodesOfFace, (place + 1) * nodesOfFace);
