@@ -7,14 +7,14 @@ PRM ?= parameters/cantilever.prm
 ARGUMENTS ?=
 # The CMake presets that `make test` builds and tests.
 PRESETS ?= release debug
-# Not empty: `make bench` takes eight minutes instead of half an hour, and only small cases.
+# If QUICK is not empty, `make bench` measures small cases only, in eight minutes instead of half an hour.
 QUICK ?=
-# no: `make docs` leaves out the gallery, whose cases take most of its time.
+# With GALLERY=no, `make docs` leaves out the gallery, whose cases take most of its time.
 GALLERY ?= yes
 
-# Names may have spaces: recipes have that of the case from their environment.
+# File names may have spaces, so recipes read the name of the case from their environment.
 export PRM
-# Where results of the case are by default. The page of an earlier run is removed: that of another run must not stay there.
+# The folder where results of the case are by default. The page of an earlier run in it is removed, as it must not be taken for that of the new run.
 SET_OUTPUT = name=$${PRM\#\#*/}; output=output/$${name%.*}
 
 .PHONY: help run report test verify bench docs format check clean
@@ -36,7 +36,7 @@ run:
 	@$(SET_OUTPUT); rm -f "$$output/report.html"
 	@$(TOOLCHAIN) build/release/corotet "$$PRM" --set "Output/Overwrite = true" $(ARGUMENTS)
 
-# A run whose computation failed, or that was stopped, has a page, too.
+# The page is written even if the computation failed or was stopped.
 report:
 	@$(TOOLCHAIN) sh -ec 'test -f build/release/build.ninja || cmake --preset release; \
 	  cmake --build --preset release --target corotet'

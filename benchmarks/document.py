@@ -16,9 +16,9 @@ PICTURES = {"throughput": ("Operators", "Throughput over size, by degree and way
 HEAD = """# Measurements
 
 Written by `benchmarks/run_benchmarks.py --document` from the results of `make bench` of {date}; do not edit. One machine,
-{cpus} cores (as the system counts them), {bits}-bit registers, caches {caches}; load {load:.1f} when it began. Wall times,
-minima over repetitions where nothing else is said, everything on one core but where `@2` says two ranks. Names are
-`P<degree>/<unknowns>/<benchmark>`; the body is a cantilever of 10 : 1 : 1, of tetrahedra no two of which are alike.
+{cpus} cores (as the system counts them), {bits}-bit registers, caches {caches}; load {load:.1f} when it began. Times are wall
+times, and minima over repetitions if nothing else is said. All benchmarks run on one core; `@2` means two ranks. Names are
+`P<degree>/<unknowns>/<benchmark>`. The body is a cantilever of 10 : 1 : 1; no two of its tetrahedra are alike.
 
 `make bench` measures all of it again, and its exit status is 1 if a required ratio is not reached.
 """
@@ -26,9 +26,9 @@ minima over repetitions where nothing else is said, everything on one core but w
 RATIOS = """
 ## Required ratios
 
-Both figures of a ratio come from the same run. A time in SpMVs or operator applications is a multiple of that of one
-y = K x of the same case, with Trilinos' matrix or matrix-free; `of` shows what was divided (or subtracted). `prototype` is
-what a throw-away prototype or another code reached.
+Both figures of a ratio come from the same run. A time in SpMVs or operator applications is a multiple of the time of one
+y = K x of the same case, with Trilinos' matrix or matrix-free. `of` shows the two figures that were divided (or
+subtracted). `prototype` is the ratio that a throw-away prototype or another code reached.
 
 """
 

@@ -82,8 +82,9 @@ def machine(results):
     return Table("Machine", ["benchmark", "GB/s", "GFLOP/s", "bits of a register"],
                  [[name, show(rate(r, "bytes")), show(rate(r, "flops")), number(r, "simd_bits")]
                   for name, r in results.items() if name.startswith("machine/")],
-                 "STREAM's triad (two reads and a write counted) in main memory and in the second-level cache, and chains of "
-                 "independent multiply-adds in registers; all ranks together, `@2` on two.")
+                 "The table has STREAM's triad (two reads and a write counted) in main memory and in the second-level "
+                 "cache, and chains of independent multiply-adds in registers. All ranks run together; `@2` means two "
+                 "ranks.")
 
 
 def operators(results):
@@ -103,13 +104,15 @@ def operators(results):
                      number(r, "difference", form=".1e")])
     return Table("Operators", ["y = K x", "unknowns", "ms", "MDoF/s", "GB/s", "% triad", "GFLOP/s", "% peak", "difference"],
                  rows,
-                 "One application as conjugate gradients see it: before each the vectors are used as that method uses them, "
-                 "which is not timed; medians over the applications of a repetition, the least of three repetitions. Bytes are "
-                 "those that must move if each number moves once, so cached matrices exceed the triad: that of P1/110k fits a "
-                 "large third-level cache. Operations of the factored kernel are counted by running it with a number type that "
-                 "counts, those of quadrature by formula. Matrix-free is what the solver calls, with distributed vectors and "
-                 "constraints; `deal_matrix_free` is that of deal.II. `difference` is that to quadrature (of quadrature and of "
-                 "deal.II, to the factored kernel), relative to the largest entry.")
+                 "Times are those of one application as in conjugate gradients: before each application the vectors "
+                 "are used as that method uses them, which is not timed. Each time is the least of three repetitions, "
+                 "of which each gives the median over its applications. Bytes are those that must move if each number "
+                 "moves once; so matrices that fit a cache exceed the triad, as that of P1/110k fits a large "
+                 "third-level cache. Operations of the factored kernel are counted by running it with a number type "
+                 "that counts, and those of quadrature by formula. `matrix_free` is the operator that the solver "
+                 "calls, with distributed vectors and constraints; `deal_matrix_free` is that of deal.II. `difference` "
+                 "is the difference from quadrature (for quadrature and deal.II, that from the factored kernel), "
+                 "relative to the largest entry.")
 
 
 def deal_matrix_free(results):
@@ -153,7 +156,8 @@ def rotations(results):
     return Table("Rotations", ["kernel", "ns per cell"],
                  [[name.removeprefix("kernels/"), show(1e9 * r["seconds"] / r["cells"])]
                   for name, r in results.items() if name.startswith("kernels/") and "flops" not in r],
-                 "Of deformation gradients in the cache, with stretches of some ten percent.")
+                 "Each kernel computes rotations of deformation gradients in the cache, with stretches of some ten "
+                 "percent.")
 
 
 def solves(results):
@@ -162,10 +166,11 @@ def solves(results):
                  [[n.replace("/solve/", " "), number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
                    number(r, "solve_s"), number(r, "seconds"), number(r, "residual", form=".1e")]
                   for n, r in select(of_beam(results), "solve/").items()],
-                 "Conjugate gradients for the beam under its weight; the operator is matrix-free but for `cg_ml`, the usual way "
-                 "(assembled matrix, Trilinos ML with rigid body modes), and `cholmod`, which factorises that matrix. Its "
-                 "assembly is not in their times; that of degree 1 is in those of p-multigrid. `p-multigrid` chooses its solver "
-                 "for degree 1, others name it.")
+                 "The beam under its weight is solved by conjugate gradients with a matrix-free operator, except in "
+                 "two solves: `cg_ml` is the usual way (assembled matrix, Trilinos ML with rigid body modes), and "
+                 "`cholmod` factorises that matrix. The times of these two do not contain the assembly of the "
+                 "matrix. The times of p-multigrid contain the assembly of its matrix of degree 1. `p-multigrid` "
+                 "chooses its solver for degree 1, and the other names with p-multigrid name it.")
 
 
 def iterations(results):
@@ -176,21 +181,23 @@ def iterations(results):
             unknowns = next(r for r in found if r)["unknowns"]
             rows.append([label, show(unknowns, form=".0f")] + [number(r or {}, "cg_iterations") for r in found])
     return Table("Iterations of p-multigrid", ["body", "unknowns"] + COARSE, rows,
-                 "To a relative residual of 1e-8, by the solver for degree 1. Bodies: the beam of 10 : 1 : 1, also bent by 90 "
-                 "degrees, with Poisson's ratio 0.45, with halves whose stiffness differs by 1000, and with cells of aspect "
-                 "ratio 10; and the bracket of `meshes/bracket.geo`, whose coarse meshes have the worse cells.")
+                 "The table has the iterations to a relative residual of 1e-8, by the solver for degree 1. Bodies are "
+                 "the beam of 10 : 1 : 1, also bent by 90 degrees, with Poisson's ratio 0.45, with halves whose "
+                 "stiffness differs by 1000, and with cells of aspect ratio 10; and the bracket of "
+                 "`meshes/bracket.geo`, whose coarse meshes have the worse cells.")
 
 
 def updates(results):
     return Table("Rotation updates and explicit steps", ["benchmark", "cells", "ns per cell", "ms", "difference"],
                  [[n, number(r, "cells", form=".0f"), show(1e9 * r["seconds"] / r["cells"]), number(r, "seconds", 1e3),
                    number(r, "difference", form=".1e")] for n, r in results.items() if "cells" in r and n[0] == "P"],
-                 "In a beam that is twisted by two radians, bent by 1.5 and stretched by some ten percent. `rotations` gathers, "
-                 "computes and stores the rotation of every cell; `rotations_svd` takes Eigen's JacobiSVD of deformation "
-                 "gradients that are there already. `rotations_and_matrix` also fills the existing sparsity. "
-                 "`setup_after_rotation` is what a Newton iteration does but its solve: rotations with internal force, operator "
-                 "and preconditioner. `explicit_step` is one sweep with rotations, external force and inverse mass as vectors. `force_`, "
-                 "`linearization_` and `tangent_` are rotations with internal force, what the exact tangent stores, and its application, "
+                 "The beam is twisted by two radians, bent by 1.5 and stretched by some ten percent. `rotations` "
+                 "gathers, computes and stores the rotation of every cell; `rotations_svd` takes Eigen's JacobiSVD of "
+                 "deformation gradients that are there already. `rotations_and_matrix` also fills the existing "
+                 "sparsity. `setup_after_rotation` is all that a Newton iteration does but its solve: rotations with "
+                 "internal force, operator and preconditioner. `explicit_step` is one sweep with rotations, external "
+                 "force and inverse mass as vectors. `force_`, `linearization_` and `tangent_` are benchmarks of "
+                 "rotations with internal force, of the data that the exact tangent stores, and of its application, "
                  "for each place where rotations are taken.")
 
 
@@ -200,8 +207,9 @@ def newton(results):
                  [[n, number(r, "unknowns", form=".0f"), number(r, "seconds"), show(1 / r["step_s"]),
                    number(r, "newton_iterations"), number(r, "linear_iterations")]
                   for n, r in select(results, "newton").items()],
-                 "Generalised alpha to 1e-6, the beam released from rest: steps of a hundredth of the first period, or a "
-                 "thousandth (`newton_short_step`). All that an iteration does is in its time.")
+                 "The beam is released from rest and integrated by generalised alpha to 1e-6, with steps of a "
+                 "hundredth of the first period, or of a thousandth (`newton_short_step`). The time of an iteration "
+                 "contains all that it does.")
 
 
 def backward_euler(results):
@@ -210,8 +218,9 @@ def backward_euler(results):
                  [[n, number(r, "unknowns", form=".0f"), number(r, "cg_iterations"), number(r, "setup_s"),
                    number(r, "solve_s"), number(r, "seconds"), number(r, "first_s")]
                   for n, r in select(results, "backward_euler").items()],
-                 "With one Newton iteration: rotations, forces, matrix, preconditioner and solve to 1e-6. The step is a "
-                 "tenth of the first period. The first step also finds the patterns of the preconditioner.")
+                 "The step takes one Newton iteration: rotations, forces, matrix, preconditioner and solve to 1e-6. "
+                 "The length of the step is a tenth of the first period. The first step also finds the patterns of the "
+                 "preconditioner.")
 
 
 def assembly(results):
@@ -219,7 +228,7 @@ def assembly(results):
                  [[n, number(r, "unknowns", form=".0f"), number(r, "nonzeros", form=".0f"), number(r, "sparsity_s"),
                    number(r, "seconds"), number(r, "bytes", 1e-9), number(r, "peak_bytes", 1e-9)]
                   for n, r in select(results, "assembly").items()],
-                 "Sparsity and places of cells in it are found once.")
+                 "The sparsity, and the places of cells in it, are found once.")
 
 
 def memory(results):
@@ -227,7 +236,8 @@ def memory(results):
                  [[n, number(r, "unknowns", form=".0f"), number(r, "peak_bytes", 1e-9),
                    number(r, "bytes_per_unknown", form=".0f"), show(r["discretization_bytes"] / r["unknowns"], form=".0f")]
                   for n, r in select(results, "memory/").items()],
-                 "Peak of a process that sets up one solve and iterates, less what it had when the serial mesh was there.")
+                 "The table has the peak memory of a process that sets up one solve and iterates, less the memory that "
+                 "it had when the serial mesh was there.")
 
 
 ALL = [machine, operators, deal_matrix_free, kernels, rotations, solves, iterations, updates, newton, backward_euler, assembly,

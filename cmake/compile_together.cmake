@@ -1,7 +1,7 @@
-# corotet_compile_together(TARGET N): where CMAKE_UNITY_BUILD asks for it, compiles N sources of a target at once. Half of the
-# time of compiling goes to deal.II's headers, once for each of what is compiled. CMake's own unity builds name sources by
-# absolute paths, so that the compiler's cache would find none of their objects from another folder. Sources with options of
-# their own, generated ones and those with SKIP_UNITY_BUILD_INCLUSION stay alone.
+# corotet_compile_together(TARGET N): if CMAKE_UNITY_BUILD asks for it, compiles N sources of a target at once. Half of the
+# time of compiling goes to deal.II's headers, which are read once for each compilation. CMake's own unity builds name sources
+# by absolute paths, so that the compiler's cache would not find their objects from another folder. Sources with options of
+# their own, generated sources, and sources with SKIP_UNITY_BUILD_INCLUSION are compiled alone.
 set(COROTET_COMPILE_TOGETHER ${CMAKE_UNITY_BUILD})
 set(CMAKE_UNITY_BUILD OFF)
 

@@ -3,7 +3,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-# Components, of which each becomes a package.
+# The components of the installation. Each becomes a package.
 set(runtime program)
 set(development development)
 
@@ -15,8 +15,8 @@ install(TARGETS corotet_library EXPORT corotetTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${development}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 
-# What the program starts (base/programs.h), scripts for results with their modules, and cases to begin with, which refer to
-# each other's folders.
+# The scripts that the program starts (base/programs.h), scripts for results with their modules, and ready cases with their meshes.
+# The cases name meshes by relative paths, so the folders keep their places.
 set(data ${CMAKE_INSTALL_DATADIR}/corotet)
 install(PROGRAMS scripts/draw_study scripts/plot scripts/render scripts/export scripts/report scripts/read_vtk DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY scripts/report_page DESTINATION ${data}/scripts COMPONENT ${runtime} PATTERN __pycache__ EXCLUDE)
@@ -31,7 +31,7 @@ install(FILES doc/corotet.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT $
 install(FILES scripts/completion/corotet.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME corotet COMPONENT ${runtime})
 install(FILES scripts/completion/_corotet DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${runtime})
 install(FILES scripts/completion/corotet.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT ${runtime})
-# The tutorial's project.
+# The project of the tutorial, as an example.
 install(DIRECTORY tests/external/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT ${development})
 
 install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}/include\")

@@ -1,7 +1,7 @@
-# The library once more for each of COROTET_INSTRUCTION_SETS, whole, in folders that the dynamic loader searches first where
-# the processor has these instructions (glibc 2.33 or newer; `man ld.so`, glibc-hwcaps). So the loader chooses at run time, all
-# code of a library is for one instruction set, and no function compiled for another one can take the place of its own. That
-# they fit the same programs, the public headers see to: nothing in them depends on the length of registers.
+# Builds the whole library once more for each of COROTET_INSTRUCTION_SETS, in folders that the dynamic loader searches first if the
+# processor has these instructions (glibc 2.33 or newer; `man ld.so`, glibc-hwcaps). So the loader chooses at run time. All code of a
+# library is for one instruction set, and no function compiled for another set can take the place of its own. All these libraries fit
+# the same programs, because nothing in the public headers depends on the length of registers.
 function(corotet_add_instruction_set set)
   set(target corotet_library_${set})
   get_target_property(all_sources corotet_library SOURCES)

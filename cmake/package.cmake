@@ -1,4 +1,4 @@
-# `cpack`: Debian packages of the components of install.cmake. What the binaries need, dpkg-shlibdeps says.
+# `cpack` makes Debian packages of the components of install.cmake. dpkg-shlibdeps finds the packages that the binaries depend on.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME corotet)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -12,7 +12,7 @@ set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_ALL program development)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
-# What lets the system's cache of libraries know of this one.
+# The package gets control files that tell the system which shared library it has, and that update the system's cache of libraries.
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "corotet computes how elastic solids move and deform: tetrahedra of degree 1, 2 and 3,
@@ -21,7 +21,7 @@ This package has the program and ready cases.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME corotet)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# For runs on several ranks, for pictures of convergence studies, and for the pages of runs.
+# The recommended packages are for runs on several ranks, for pictures of convergence studies, and for the pages of runs.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "openmpi-bin, python3, python3-matplotlib, python3-numpy, python3-h5py, python3-vtk9, libjs-three")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "ffmpeg, python3-pyvista, xvfb")
 

@@ -1,12 +1,12 @@
-# A start of the program would load more than 200 libraries and spend most of its time on them: deal.II is linked with all that
-# it has interfaces to. The program finds placeholders of those that it never calls (gmsh has a process of its own), first by its
-# RPATH, which holds for the libraries of its libraries, too. Where one is missing, the real library is loaded. Only the program
-# has them, and not what others link with the library.
-# For a deal.II that may be replaced without building anew, as by an update of the system, switch this off.
+# deal.II is linked with all libraries that it has interfaces to: a start of the program would load more than 200 libraries and spend
+# most of its time on them. So the program gets placeholders, empty libraries that take the place of those that it never calls (gmsh
+# has a process of its own). It finds the placeholders first, by its RPATH, which holds for the libraries of its libraries, too. If a
+# placeholder is missing, the real library is loaded. Only the program gets placeholders, and not what others link with the library.
+# Switch this off if deal.II may be replaced without a new build of corotet, as by an update of the system.
 if(NOT COROTET_PLACEHOLDERS)
   return()
 endif()
-# PETSc stays: deal.II, compiled with its headers, counts each call of MPI in it.
+# PETSc gets no placeholder: deal.II is compiled with PETSc's headers, which count each call of MPI in variables of PETSc.
 set(left_out "lib(gmsh|TK|assimp|sundials|adolc|gsl|slepc|p4est|sc-|trilinos_nox)")
 set(deal_ii_target dealii::dealii_$<IF:$<CONFIG:Debug>,debug,release>)
 find_package(Python3 COMPONENTS Interpreter)
@@ -22,7 +22,7 @@ add_custom_command(OUTPUT ${placeholders}/made
   COMMENT "Making placeholders of libraries that are never called" VERBATIM)
 add_custom_target(corotet_placeholders DEPENDS ${placeholders}/made)
 add_dependencies(corotet corotet_placeholders)
-# RPATH and not RUNPATH, which would hold for the program's own libraries only.
+# The linker must write RPATH and not RUNPATH, which would hold for the program's own libraries only.
 target_link_options(corotet PRIVATE LINKER:--disable-new-dtags)
 set_property(TARGET corotet APPEND PROPERTY BUILD_RPATH ${placeholders})
 set_property(TARGET corotet APPEND PROPERTY INSTALL_RPATH "$ORIGIN/../lib/corotet/placeholders")

@@ -4,10 +4,10 @@
 
     placeholders.py DEAL_II_LIBRARY PATTERN COMPILER FOLDER
 
-For each library that DEAL_II_LIBRARY needs and whose name matches PATTERN, FOLDER gets a library of the same name. It defines
-what deal.II, and what else is loaded, would take from the real one and from libraries that only that one needs: functions, which
-say their name and end the program, and variables of the same size, which are zero. A library whose symbols have versions gets
-no placeholder.
+For each library that DEAL_II_LIBRARY needs and whose name matches PATTERN, FOLDER gets a placeholder, a library of the same name. It
+defines all symbols that deal.II and the other loaded libraries would take from the real library, and from libraries that only the
+real library needs. Functions of a placeholder say their name and end the program; variables have the same size and are zero. A
+library whose symbols have versions gets no placeholder.
 """
 
 import pathlib
@@ -31,14 +31,14 @@ def output_of(*command):
 
 
 def dynamic_symbols(file):
-    """Of each symbol but local ones: name, type, whether defined, size."""
+    """Yields (name, type, whether it is defined, size) for each symbol of the file that is not local."""
     pattern = r"^ +\d+: [0-9a-f]+ +(\S+) (\w+) +(?:GLOBAL|WEAK|UNIQUE) +\w+ +(\w+) ([^@\n]+)"
     for size, kind, section, name in re.findall(pattern, output_of("readelf", "-W", "--dyn-syms", file), re.MULTILINE):
         yield name, kind, section != "UND", int(size, 0)
 
 
 class Libraries:
-    """The libraries that a library is loaded with, by name."""
+    """The path of each library that is loaded together with the library `first`, by name."""
 
     def __init__(self, first):
         self.first = first
@@ -51,7 +51,7 @@ class Libraries:
         return self.kept_needed[file]
 
     def without(self, left_out):
-        """Paths of those that are loaded where some are not."""
+        """Paths of the libraries that are still loaded if the libraries named in left_out are not."""
         found, open_ones = {self.first}, [self.first]
         while open_ones:
             for name in self.needed(open_ones.pop()):
@@ -90,7 +90,8 @@ def main():
             (there if defined else wanted).add(name)
     wanted -= there
     placeholders = {name: {} for name in left_out}
-    # What nobody needs any more, each with the library that it came with; those that are left out themselves first.
+    # All libraries that are no longer loaded, each with the placeholder that gets its symbols: first the libraries that are left out, with
+    # their own placeholders, then those that only they needed, with the first placeholder.
     gone = [(name, libraries.paths[name]) for name in left_out]
     gone += [(left_out[0], path) for path in libraries.paths.values() if path not in staying and path not in dict(gone).values()]
     for name, path in gone:

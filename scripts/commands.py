@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What scripts for results share as programs: one line for a mistake, a bar of progress, files that are whole or not there. Needs Python alone."""
+"""Functions that the scripts for results share: mistakes are told in one line, progress is shown by a bar, and a file is written as a whole or not
+at all. Needs Python alone."""
 
 import argparse
 import contextlib
@@ -14,27 +15,27 @@ import sys
 import tempfile
 import time
 
-# In each file that is written, near its start or end: such files may be replaced.
+# Each file that the scripts write contains this mark near its start or end. Files with the mark may be replaced.
 MARK = "made by corotet"
 FIRST_COLUMNS = "node,x,y,z,"
-# Of numbers in options.
+# Largest absolute value of a number in an option.
 LARGEST = 1e50
-# What a full disk says, also one that is full for this user or this file.
+# Errors of a full disk: no space at all, no space for this user, or none for so large a file.
 FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class WrongInput(Exception):
-    """What was asked for is not possible; the message is one line for the user."""
+    """The user asked for something that is not possible; the message is one line for the user."""
 
 
 def one_line(error):
-    """The start of what an exception says."""
+    """The start of the message of an exception, as one line."""
     text = " ".join(str(getattr(error, "strerror", None) or (error.args[0] if error.args else error)).split())
     return text if len(text) < 150 else text[:150] + "..."
 
 
 def number(text):
-    """For an option: one with which vectors have lengths."""
+    """Converts the text of an option to a number. Numbers beyond LARGEST are refused: vectors of such numbers would have no finite length."""
     value = float(text)
     if not abs(value) <= LARGEST:
         raise argparse.ArgumentTypeError(f"found {text}; allowed are numbers from -{LARGEST:g} to {LARGEST:g}")
@@ -42,7 +43,7 @@ def number(text):
 
 
 def is_number(text):
-    """Whether it is one that options may have."""
+    """Whether the text is a number that options may have."""
     try:
         return abs(float(text)) <= LARGEST
     except ValueError:
@@ -50,11 +51,11 @@ def is_number(text):
 
 
 class Parser(argparse.ArgumentParser):
-    """Mistakes are one line, and status 1."""
+    """A parser that reports a mistake in the command line as WrongInput: one line, and exit status 1."""
 
     def __init__(self, name, description):
         super().__init__(prog=name, description=description, formatter_class=argparse.RawDescriptionHelpFormatter, allow_abbrev=False)
-        # What begins so is a value, no option: argparse itself takes -1e-3 and -0.5:2 for options.
+        # A word that matches this is a value: argparse itself would take -1e-3 and -0.5:2 for options.
         self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def error(self, message):
@@ -62,7 +63,8 @@ class Parser(argparse.ArgumentParser):
 
 
 def run_command(name, main):
-    """Calls main and ends the process: status 0, 1 for wrong input, 3 if the machine failed (interrupted: as signals do)."""
+    """Calls main. The exit status of the process is 0 after success, 1 for wrong input, 3 if the machine failed, and 128 plus the number of a
+    signal that ended it."""
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(128 + signal.SIGTERM))
     try:
         main()
@@ -76,7 +78,7 @@ def run_command(name, main):
 
 
 class Progress:
-    """A bar on a terminal, else nothing: what is done, and how long the rest will take."""
+    """Shows on a terminal a bar of the work that is done, and how long the rest will take. Shows nothing if there is no terminal."""
 
     def __init__(self, what, n):
         self.what, self.n, self.done, self.start = what, n, 0, time.monotonic()
@@ -93,7 +95,7 @@ class Progress:
 
 
 def is_ours(path):
-    """Whether a file was written by these scripts; a table is known by its first columns."""
+    """Whether a file was written by these scripts: it contains the mark, or it is a table that begins with FIRST_COLUMNS."""
     with open(path, "rb") as file:
         start = file.read(1 << 16)
         file.seek(max(0, os.path.getsize(path) - (1 << 16)))
@@ -102,7 +104,7 @@ def is_ours(path):
 
 
 def check_folder(path):
-    """A file can be written there."""
+    """Raises WrongInput unless the folder of the path exists and may be written to."""
     path = pathlib.Path(path)
     if not path.parent.is_dir():
         raise WrongInput(f"{path} cannot be written: the folder {path.parent} does not exist")
@@ -111,7 +113,8 @@ def check_folder(path):
 
 
 def check_target(path, overwrite):
-    """A file may be written there: nothing of others is lost, unless that is wanted."""
+    """Raises WrongInput unless a file may be written at the path. A file that these scripts have not made is replaced only if @p overwrite is
+    set."""
     check_folder(path)
     if path.is_dir():
         raise WrongInput(f"{path} cannot be written: it is a folder")
@@ -120,7 +123,8 @@ def check_target(path, overwrite):
 
 
 def remove_after(last):
-    """What a longer series FILE_0000, FILE_0001, .. has left after its last file now, as far as these scripts have written it."""
+    """Removes files of an earlier, longer series FILE_0000, FILE_0001, .. that come after @p last, up to the first one that these scripts have not
+    written."""
     stem, number = last.stem.rsplit("_", 1)
     number = int(number) + 1
     while (path := last.with_name(f"{stem}_{number:04d}{last.suffix}")).is_file() and is_ours(path):
@@ -130,7 +134,7 @@ def remove_after(last):
 
 @contextlib.contextmanager
 def named(target):
-    """What the machine could not write is said of the target, not of a file on the way there."""
+    """Errors of a full disk, and errors without a file name, get the name of the target, as the user does not know the temporary file."""
     try:
         yield
     except OSError as error:
@@ -141,7 +145,8 @@ def named(target):
 
 @contextlib.contextmanager
 def written_beside(target):
-    """A folder beside the target, gone at the end. Files that are whole go from there to their places by os.replace."""
+    """Yields a temporary folder beside the target, which is removed at the end. The caller moves complete files from there to their places by
+    os.replace."""
     target = pathlib.Path(target)
     with named(target):
         folder = pathlib.Path(tempfile.mkdtemp(prefix=f".{target.name}.", dir=target.parent))
@@ -153,7 +158,7 @@ def written_beside(target):
 
 @contextlib.contextmanager
 def moved_to(target, part):
-    """For a file whose name on the way is given: it goes to its place when it is whole, or is removed."""
+    """Yields @p part, the name of a temporary file. At the end that file is moved to the target; after an exception it is removed."""
     with named(target):
         try:
             yield part

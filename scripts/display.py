@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Lets VTK draw where there is no screen: by a VTK that draws without one, on the display that is there, or on an invisible one (Xvfb)."""
+"""Lets VTK draw without a screen: by a VTK that needs no display, on the display that is there, or on an invisible display (Xvfb)."""
 
 import atexit
 import ctypes
@@ -38,15 +38,15 @@ def end(server):
 
 @functools.cache
 def have_display():
-    """To be called before anything is drawn; once is enough. What it starts ends with the process, however that ends: the server stays while there are
-    connections, and one is kept."""
+    """Call this before anything is drawn; one call is enough. If it starts a server Xvfb, that ends with this process, however the process ends: the
+    server ends without connections, and this process keeps one open."""
     if needs_no_display() or connect():
         return
     if not shutil.which("Xvfb"):
         raise WrongInput("there is no display, and no Xvfb for an invisible one (package xvfb)")
     folder = tempfile.mkdtemp(prefix="corotet-display-")
     atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    # Only who has this key may look: one for any display (family 65535).
+    # Only programs that have this key may connect to the server. The key holds for any display number (family 65535).
     authority = os.path.join(folder, "authority")
     fields = (b"", b"", b"MIT-MAGIC-COOKIE-1", secrets.token_bytes(16))
     with open(os.open(authority, os.O_CREAT | os.O_WRONLY, 0o600), "wb") as file:

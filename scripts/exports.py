@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""States of a run as files for other programs. A writer gets a Source and a path in a folder of its own, and returns the names of its files there,
-the one that refers to the others last. Needs VTK, PyVista, h5py and NumPy."""
+"""Writes states of a run as files for other programs. A writer gets a Source and a path in a temporary folder. It returns the names of the files that it
+has written there; a file that refers to the others comes last. Needs VTK, PyVista, h5py and NumPy."""
 
 import errno
 import io
@@ -26,7 +26,7 @@ LAGRANGE_TETRAHEDRON = 71
 
 
 class Source:
-    """What is exported: states of a run, the arrays wanted, and the displaced surface coloured by a field."""
+    """The data to export: states of a run, the wanted arrays, and the displaced surface coloured by a field."""
 
     def __init__(self, run, states, fields, warp, subdivisions):
         self.run, self.states, self.warp = run, states, warp
@@ -37,11 +37,11 @@ class Source:
         self.advance = lambda: None
 
     def arrays(self):
-        """Names at nodes and of cells."""
+        """Two lists: names of the wanted arrays at nodes, and of those of cells."""
         return choose_arrays(self.run, self.fields)
 
     def point_table(self, state):
-        """All columns at nodes in a state, by name."""
+        """All wanted data at nodes in a state, as {name: column}; vectors and tensors have a column for each component."""
         columns = {}
         for name in self.arrays()[0]:
             data = self.run.point_data(name, state)
@@ -62,7 +62,8 @@ class Source:
         return points
 
     def colour_values(self, state):
-        """The field at the vertices of the surface; of what is a number of something, at the corners of triangles."""
+        """Values of the field at the vertices of the surface. A field of numbers of regions or ranks is not interpolated: it has a value for each
+        corner of each triangle."""
         surface, values = self.make_surface(), self.colour_field.values(self.run, state)
         if self.flat():
             return np.repeat(values[surface.owners], 3)
@@ -77,24 +78,26 @@ class Source:
 
 
 def colours_of(values, limits):
-    """Red, green and blue in [0, 1] as screens have them."""
+    """The colours of values between the limits: red, green and blue in [0, 1], as sent to screens (not linear in intensity)."""
     low, high = limits
     share = (values - low) / (high - low) if high > low else np.zeros(len(values))
     return matplotlib.colormaps["viridis"](np.clip(share, 0, 1))[:, :3]
 
 
 def numbered(path, n):
-    """Names of so many files: that of the path if it is one."""
+    """Paths of n files: the path itself if n is 1, else the path with a number before its suffix."""
     return [path] if n == 1 else [path.with_name(f"{path.stem}_{i:04d}{path.suffix}") for i in range(n)]
 
 
 def folder_of(path):
-    """Of the files of several states, beside the .pvd that refers to them: not the name of the run, whose results may be there."""
+    """The folder for the .vtu files of several states, beside the .pvd that refers to them. Its name ends with _vtu, since a folder with the name of
+    the run, and with its results, may be in the same place."""
     return path.with_name(f"{path.stem}_vtu")
 
 
 def write_vtu(source, path):
-    """VTK's files of unstructured grids, a Lagrange tetrahedron for each cell, points at rest; of several states a .pvd that has their times."""
+    """Writes VTK's files of unstructured grids, with a Lagrange tetrahedron for each cell and points at rest. Several states get a file each, and a .pvd
+    with their times."""
     n = len(source.states)
     folder = folder_of(path) if n > 1 else path.parent
     folder.mkdir(exist_ok=True)
@@ -138,7 +141,7 @@ def write_grid(source, state, time, file):
 
 
 def write_by(writer):
-    """By a writer of VTK; what it would say itself of a failure is in the error."""
+    """Writes a file by a writer of VTK. A failure raises OSError; VTK's own messages are not shown."""
     for who in (writer, writer.GetExecutive()):
         who.AddObserver("ErrorEvent", lambda *_: None)
     if writer.Write() != 1 or writer.GetErrorCode():
@@ -152,7 +155,7 @@ def write_xml(root, path):
 
 
 def write_stl(source, path):
-    """The displaced surface as triangles, binary, single precision."""
+    """Writes the displaced surface as triangles, binary, in single precision."""
     files = numbered(path, len(source.states))
     for state, file in zip(source.states, files):
         points = source.surface_points(state)
@@ -168,12 +171,12 @@ def write_stl(source, path):
 
 
 def write_obj(source, path):
-    """The displaced surface as text; with a field the vertices have colours, as many programs read them."""
+    """Writes the displaced surface as text. With a field, the vertices have colours, in a form that many programs read."""
     files = numbered(path, len(source.states))
     triangles = source.make_surface().simplices
     coloured = bool(source.fields)
     limits = source.colour_range() if coloured else None
-    # Where colours jump, each triangle has vertices of its own.
+    # If colours jump between triangles, each triangle has vertices of its own.
     vertices = triangles.ravel() if coloured and source.flat() else np.arange(triangles.max() + 1)
     faces = np.arange(len(vertices)).reshape(-1, 3) if coloured and source.flat() else triangles
     for state, file in zip(source.states, files):
@@ -189,7 +192,7 @@ def write_obj(source, path):
 
 
 def write_csv(source, path):
-    """A row for each node: its place at rest and all data there, with all digits."""
+    """Writes a row for each node: its place at rest and its data, with all digits."""
     files = numbered(path, len(source.states))
     points = source.run.points
     for state, file in zip(source.states, files):
@@ -201,7 +204,7 @@ def write_csv(source, path):
 
 
 class FileOfHdf5(io.FileIO):
-    """What HDF5 writes to. It crashes where it cannot: so the first error is kept, and raised at the end."""
+    """The file that HDF5 writes to. HDF5 crashes if a write fails: so write() always succeeds, and close() raises the first error."""
 
     error = None
 
@@ -222,12 +225,12 @@ class FileOfHdf5(io.FileIO):
 
 
 def write_xdmf(source, path):
-    """XDMF 3 with its numbers in an HDF5 file beside. Tensors are scalars, component by component. Cells of degree 3, which the format has
-    not, are 27 straight ones on the same nodes."""
+    """Writes XDMF 3, with the numbers in an HDF5 file beside it. Each component of a tensor is a scalar. The format has no cells of degree 3: each
+    becomes 27 straight cells on the same nodes."""
     run = source.run
     heavy = path.with_suffix(".h5")
     pieces = inside(run.cells, 3, 3) if run.degree == 3 else None
-    # Vertices of the pieces are nodes: which ones, their shape functions tell.
+    # Each vertex of a straight piece is a node of the cell: the one whose shape function is largest there.
     cells = run.cells if pieces is None else pieces.nodes[pieces.piece, pieces.shapes[pieces.place].argmax(axis=1)][pieces.simplices]
     owners = np.arange(len(run.cells)) if pieces is None else pieces.owners
     root = xml.Element("Xdmf", Version="3.0")
@@ -268,7 +271,7 @@ def add_attributes(source, state, place, file, grid, owners, heavy):
 
 
 def item(file, parent, name, data, heavy):
-    """Writes data, if any, and refers to what is there by that name."""
+    """Stores data, if any, under the name in the HDF5 file, and adds a reference to the data of that name to the XML element @p parent, if any."""
     if data is not None:
         file[name] = data
     if parent is None:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What can be shown of a run: fields by name, with units. Needs NumPy."""
+"""The fields of a run that can be shown, by name, with their units. Needs NumPy."""
 
 import dataclasses
 import difflib
@@ -9,7 +9,7 @@ import numpy as np
 
 from commands import WrongInput
 
-# Titles and units of what runs write, doc/results.md.
+# Titles and units of the arrays that runs write (doc/results.md).
 KNOWN = {"displacement": ("displacement", "m"), "velocity": ("velocity", "m/s"), "stress": ("stress", "Pa"), "strain": ("strain", ""),
          "von_mises": ("von Mises stress", "Pa"), "principal_stress": ("principal stress", "Pa"), "error_estimate": ("estimated error", "J^(1/2)"),
          "rotation_angle": ("rotation", "rad"), "det_F": ("det F: volume relative to rest", ""), "region": ("region", ""), "rank": ("rank", "")}
@@ -29,7 +29,7 @@ def with_prefix(largest, unit):
 
 
 def components(name, n):
-    """Names of the components of an array; none of a scalar one."""
+    """Names of the components of an array with n components; an empty list if it is a scalar."""
     if name.startswith("principal"):
         return [f"{name}_{i + 1}" for i in range(n)]
     return [f"{name}_{part}" for part in {3: "x y z", 6: "xx yy zz xy yz xz"}[n].split()] if n in (3, 6) else []
@@ -46,7 +46,7 @@ class Field:
     unit: str
 
     def values(self, run, state):
-        """At nodes, or of cells."""
+        """The values of the field in a state: one for each node, or one for each cell if the field belongs to cells."""
         data = (run.cell_data if self.of_cells else run.point_data)(self.array, state).astype(float)
         if data.ndim == 1:
             return data
@@ -57,8 +57,8 @@ class Field:
 
 
 def fields_of(run):
-    """All fields by name. What is there at nodes and of cells, as the von Mises stress may be, is that at nodes; with `cells.` before its
-    name, that of cells."""
+    """All fields by name. If there are values both at nodes and of cells, as there may be of the von Mises stress, the plain name means those at
+    nodes, and the name after `cells.` those of cells."""
     found = {}
     for of_cells, arrays in ((True, run.cell_fields), (False, run.point_fields)):
         for array, n in arrays.items():
@@ -74,13 +74,13 @@ def fields_of(run):
 
 
 def nearest(wanted, names):
-    """An end of a message: the name that may be meant, and all there are."""
+    """The end of an error message: the name that may be meant, and all names there are."""
     near = difflib.get_close_matches(wanted, names, 1, 0.5)
     return (f"is it {near[0]}? " if near else "") + f"There are: {', '.join(names)}"
 
 
 def choose_field(run, wanted):
-    """The field of that name; without one the recovered von Mises stress, if the run has it, else the displacement."""
+    """The field called @p wanted. If that is None, the recovered von Mises stress if the run has it, else the displacement."""
     fields = fields_of(run)
     if wanted is None:
         return fields["von_mises" if "von_mises" in run.point_fields else "displacement"]
@@ -90,7 +90,7 @@ def choose_field(run, wanted):
 
 
 def choose_arrays(run, wanted):
-    """Names of the arrays at nodes and of cells, of those wanted; without any, all."""
+    """Two lists: names of the wanted arrays at nodes, and of the wanted arrays of cells. If none is wanted, the lists have all names."""
     names = list(dict.fromkeys([*run.point_fields, *run.cell_fields]))
     for name in wanted or []:
         if name not in names:
@@ -99,7 +99,7 @@ def choose_arrays(run, wanted):
 
 
 def mean_of_cells(run, values):
-    """Values of cells as values at nodes: at each, the mean over its cells."""
+    """Turns values of cells into values at nodes: the mean of the cells that a node belongs to."""
     nodes = run.cells.ravel()
     n = len(run.points)
     repeated = np.repeat(values, run.cells.shape[1])
@@ -107,16 +107,17 @@ def mean_of_cells(run, values):
 
 
 def round_factor(ratio):
-    """The largest of 1, 2, 5, 10, .. that is not above the ratio, but for round-off: a ratio of 9.999999999999998 is 10."""
+    """The largest of the numbers 1, 2, 5, 10, .. that is not above the ratio, round-off aside: a ratio of 9.999999999999998 gives 10."""
     power = 10.0 ** np.floor(np.log10(ratio))
     return power * max(leading for leading in (1, 2, 5, 10) if leading * power <= ratio * (1 + 1e-9))
 
 
 def choose_warp(run, states, wanted):
-    """What displacements are multiplied by: a number, or with "auto", the default for modes, a round number that lets them show."""
+    """The factor that displacements are multiplied by: the number @p wanted, or a round number that makes displacements visible if @p wanted is
+    "auto". The default is 1, and "auto" for modes."""
     if wanted != "auto" and not (wanted is None and run.is_modes):
         return float(1 if wanted is None else wanted)
     largest = max(np.linalg.norm(run.displacement(state), axis=1).max() for state in states)
     ratio = 0.1 * np.linalg.norm(np.ptp(run.points, axis=0)) / largest if largest > 0 else 1
-    # What is seen as it is, is not magnified.
+    # Displacements that can be seen as they are, are not magnified.
     return 1.0 if ratio < 2 else round_factor(ratio)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Frames, which are files of pictures, as PNG, GIF, WebP and MP4. Needs Pillow, and for MP4 ffmpeg."""
+"""Writes frames, given as files of pictures, as PNG, GIF, WebP and MP4. Needs Pillow, and for MP4 ffmpeg."""
 
 import os
 import shutil
@@ -22,7 +22,7 @@ def images(frames):
 
 
 def write_png(frame, path, notes):
-    """@p notes are texts by name that the file has inside."""
+    """Writes a frame as PNG. @p notes are texts that are stored in the file, by name."""
     information = PngImagePlugin.PngInfo()
     for name, text in {"Software": MARK, **notes}.items():
         information.add_itxt(name, text)
@@ -31,7 +31,7 @@ def write_png(frame, path, notes):
 
 
 def palette_of(frames):
-    """255 colours for all frames, chosen from some of them."""
+    """A palette of 255 colours for all frames, chosen from the colours of some of them."""
     chosen = [frames[i] for i in sorted({round(x) for x in np.linspace(0, len(frames) - 1, 8)})]
     rows = np.concatenate([np.asarray(image)[:: max(1, len(chosen) // 2)] for image in images(chosen)])
     return Image.fromarray(rows).quantize(255, method=Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
@@ -52,7 +52,7 @@ def write_webp(frames, path, fps):
 
 
 def write_mp4(frames, path, fps):
-    """H.264, which every player has; its sizes are even, so a column or a row of white may be added."""
+    """Writes H.264, which every player knows. Its width and height must be even, so a column or a row of white may be added."""
     with Image.open(frames[0]) as image:
         width, height = image.size
     command = ["ffmpeg", "-v", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", f"{fps:g}", "-i", "pipe:0",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Frames of a picture or a film of a run: which states, seen from where, in which colours."""
+"""Makes the frames of a picture or a film of a run: chooses the states, the view and the colours."""
 
 import dataclasses
 
@@ -13,9 +13,9 @@ from commands import WrongInput, is_number
 from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
 from views import View, direction_of
 
-FOLD = 35  # degrees: where the surface is folded by more, the outline has an edge
+FOLD = 35  # [degrees]: edges where the surface is folded by more are drawn in the outline
 MANY_TRIANGLES = 400_000
-LARGEST_PLACE = 1e18  # [m]: squares of that are numbers in single precision, too, in which VTK draws
+LARGEST_PLACE = 1e18  # [m]: VTK draws in single precision, and must be able to square coordinates
 FROM_FRONT_RIGHT_ABOVE = (0.45, -1, 0.4)
 
 
@@ -56,7 +56,7 @@ class Pictures:
         return faces if min(finest, wanted) <= 1 else Surface(self.run.cells, self.run.degree, min(finest, wanted))
 
     def values(self, state):
-        """At nodes; of cells if they are to be shown as they are."""
+        """Values of the field in a state: at nodes, or of cells if these are to be shown as they are."""
         values = self.field.values(self.run, state)
         return mean_of_cells(self.run, values) if self.field.of_cells and not self.shows_cells() else values
 
@@ -80,7 +80,7 @@ class Pictures:
         return Legend(title, low, high, factor * least, factor * largest, self.options.colours, self.field.is_number_of_something()), factor
 
     def make_clip(self):
-        """The normal of the plane and a point in it, or None."""
+        """The normal of the plane of --clip, a point in it, the cells that it cuts, and these cut into straight pieces; None without --clip."""
         words = self.options.clip
         if not words:
             return None
@@ -95,7 +95,8 @@ class Pictures:
         side = (self.run.points - point) @ normal
         if not (side.min() < 0 < side.max()):
             raise WrongInput("the plane of --clip does not cut the body")
-        # By this it misses nodes that are in the plane, where VTK loses pieces of the cut; cells that have a face there are cut, too.
+        # The plane is moved by a tiny distance so that no nodes lie in it, where VTK loses pieces of the cut. So cells with a face in the plane are cut,
+        # too.
         point = point - 1e-6 * self.size_of_body * normal / np.linalg.norm(normal)
         side = (self.run.points - point) @ normal
         cut = (side[self.run.cells].min(axis=1) < 0) & (side[self.run.cells].max(axis=1) > 0)
@@ -120,7 +121,7 @@ class Pictures:
         return self.clipped(body, nodes, values) if self.clip else body
 
     def clipped(self, body, nodes, values):
-        """What is behind the plane in the body at rest, with the cut itself: the same material in all states."""
+        """The part of the body that is behind the plane at rest, with the area of the cut. So all states show the same material."""
         normal, point, cut_cells, pieces = self.clip
         of_cells = self.shows_cells()
         shell = pv.PolyData(self.rest, np.insert(body.triangles, 0, 3, axis=1).ravel())
@@ -174,7 +175,7 @@ class Pictures:
         return view
 
     def corners(self, view):
-        """Those of the smallest boxes, in the directions of the view, around each state and the outline."""
+        """The corners of boxes around each state and around the outline. The boxes are as small as possible, with sides along the axes of the view."""
         axes = np.stack([view.right, view.up, view.towards])
         clouds = [] if self.outline is None else [self.rest]
         for frame in self.frames:
@@ -194,7 +195,7 @@ class Pictures:
         return side, side, above, below + (1.5 * f if labels else 0)
 
     def times(self):
-        """Texts for the states' times, with as many digits as tell them apart."""
+        """A text for the time of each state, with enough digits to tell the times apart. Modes have their numbers and frequencies."""
         run, states = self.run, self.states
         if run.is_modes:
             frequencies = run.history().get("frequency")
@@ -225,15 +226,15 @@ class Pictures:
         return image
 
     def label_place(self, state, body):
-        """A place at the body, and which side of it a text is on."""
+        """Where the label of a state goes: a place at the body, and the direction in which the text lies from there."""
         seen = self.view.pixels(body.points)
         low, high = seen.min(axis=0), seen.max(axis=0)
         middle = (low + high) / 2
         if self.options.shift:
-            # Side by side: below each; one above the other: to the right.
+            # If bodies are side by side, the label is below each body; if they are one above the other, it is to the right.
             step = np.abs(np.diff(self.view.pixels(self.shifts(2)), axis=0)[0])
             return (np.array([middle[0], high[1]]), np.array([0.0, 1.0])) if step[0] > step[1] else (np.array([high[0], middle[1]]), np.array([1.0, 0.0]))
-        # Beside what has moved farthest, away from the middle.
+        # The label lies beside the point that has moved farthest, on the side away from the middle.
         moved = self.surface.at(np.linalg.norm(self.run.displacement(state), axis=1))
         if moved.max() < 1e-3 * self.size_of_body:
             return np.array([middle[0], high[1]]), np.array([0.0, 1.0])

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The displaced surface as glTF 2.0, one binary file (.glb): a mesh with colours, states as morph targets, and their animation. Needs NumPy and
-PyVista."""
+"""Writes the displaced surface as glTF 2.0 in one binary file (.glb): a mesh with colours, the states as morph targets, and an animation of these. Needs
+NumPy and PyVista."""
 
 import json
 import struct
@@ -14,19 +14,19 @@ from exports import colours_of, numbered
 
 FLOAT, UNSIGNED = 5126, 5125
 VERTICES, INDICES = 34962, 34963
-FOLD = 35  # degrees: edges that are sharper look so
+FOLD = 35  # [degrees]: edges where the surface is folded by more look sharp
 FRAMES_OF_A_SWING = 24
 PLAIN = (0.2, 0.35, 0.5, 1)  # red, green, blue, opacity
 
 
 class Buffer:
-    """The binary part of the file, and what says what is in it."""
+    """The binary part of the file, with the views and accessors that describe its content."""
 
     def __init__(self):
         self.parts, self.size, self.views, self.accessors = [], 0, [], []
 
     def add(self, data, target=None, limits=False):
-        """Adds vectors or scalars; returns the number of their accessor."""
+        """Appends an array of vectors or scalars to the buffer; returns the number of its accessor."""
         data = np.ascontiguousarray(data, np.uint32 if target == INDICES else np.float32)
         kind = "SCALAR" if data.ndim == 1 else f"VEC{data.shape[1]}"
         view = {"buffer": 0, "byteOffset": self.size, "byteLength": data.nbytes}
@@ -42,12 +42,13 @@ class Buffer:
 
 
 def linear(colours):
-    """From what screens have to intensities, which glTF has."""
+    """Converts colours as sent to screens (sRGB) to intensities, which glTF wants."""
     return np.where(colours <= 0.04045, colours / 12.92, ((colours + 0.055) / 1.055) ** 2.4)
 
 
 class Skin:
-    """Vertices of the file: those of the surface, once for each side of a sharp edge, or once for each triangle where colours jump."""
+    """The vertices of the file. A vertex of the surface is repeated for each side of a sharp edge, or for each triangle if colours jump between
+    triangles."""
 
     def __init__(self, source):
         surface = source.make_surface()
@@ -63,7 +64,7 @@ class Skin:
         self.values = lambda state: source.colour_values(state)[self.vertices]
 
     def normals(self, points):
-        """At vertices, the mean of those of their triangles, by area."""
+        """Unit normals at the vertices: means of the normals of their triangles, weighted with the areas."""
         a, b, c = (points[self.triangles[:, i]] for i in range(3))
         of_triangles = np.cross(b - a, c - a)
         sums = np.stack([np.bincount(self.triangles.ravel(), np.repeat(of_triangles[:, i], 3), len(points)) for i in range(3)], axis=1)
@@ -72,8 +73,8 @@ class Skin:
 
 
 def write_gltf(source, path, split=False, seconds=None):
-    """One file in which states follow each other at their times, from the first one on, which @p seconds stretch to that length; with @p split a file
-    for each state."""
+    """Writes one file in which the states follow each other at their times, counted from the first; with @p seconds, the animation is stretched to that
+    length. With @p split, writes a file for each state."""
     if not split:
         write_file(source, source.states, path, seconds)
         return [path.name]
@@ -89,9 +90,9 @@ def write_file(source, states, path, seconds):
     base = attributes(source, skin, states[0], limits, 0.0 if swings else 1.0)
     alone = len(states) == 1
     if swings and not alone:
-        del base["COLOR_0"]  # each mode would have its own
+        del base["COLOR_0"]  # colours would differ from mode to mode
     elif not alone:
-        # Not all programs know colours of targets: these are for the others.
+        # Some programs ignore the colours of morph targets. They show these colours of the mesh: at each vertex, that of the largest value in all states.
         base["COLOR_0"] = colours(np.max([skin.values(state) for state in states], axis=0), limits)
     primitive = {"attributes": {name: buffer.add(data, VERTICES, name == "POSITION") for name, data in base.items()},
                  "indices": buffer.add(skin.triangles.ravel(), INDICES), "material": 0}
@@ -111,7 +112,7 @@ def write_file(source, states, path, seconds):
     document = {
         "asset": {"version": "2.0", "generator": MARK},
         "scene": 0, "scenes": [{"nodes": [0]}],
-        # z is up in the run, y in glTF.
+        # The axis z points upwards in the run, and the axis y in glTF.
         "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}],
         "meshes": [mesh],
         "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7} | ({} if "COLOR_0" in base else {"baseColorFactor": PLAIN})}],
@@ -135,7 +136,8 @@ def animation(buffer, name, times, weights):
 
 
 def follow(buffer, times, seconds):
-    """One state after the other: each is a target, which counts fully at its time. The format wants times from 0 on, in single precision, that grow."""
+    """An animation of one state after the other: each state is a target, whose weight is 1 at its time. The format wants growing times from 0 on, in
+    single precision."""
     times = times - times[0]
     if seconds and times[-1] > 0:
         times = times * seconds / times[-1]
@@ -146,7 +148,7 @@ def follow(buffer, times, seconds):
 
 
 def swing(buffer, run, modes, seconds):
-    """A vibration in each mode."""
+    """An animation for each mode: a vibration in it."""
     phases = np.linspace(0, 2 * np.pi, FRAMES_OF_A_SWING + 1)
     frequencies = run.history()["frequency"]
     result = []

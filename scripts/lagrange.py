@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Lagrange tetrahedra with nodes in VTK's order: their surface and their insides as small straight pieces. Needs NumPy."""
+"""Cuts Lagrange tetrahedra, with nodes in VTK's order, into small straight pieces: their surface into triangles, their inside into
+tetrahedra. Needs NumPy."""
 
 import itertools
 
@@ -12,7 +13,7 @@ OUTWARD_FACES = ((0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2))
 
 
 def tetrahedron_nodes(degree):
-    """Barycentric coordinates of a tetrahedron's nodes, times its degree."""
+    """Barycentric coordinates, times the degree, of the nodes of a tetrahedron."""
     unit = np.eye(4, dtype=int)
     nodes = [degree * unit[i] for i in range(4)]
     nodes += [(degree - k) * unit[a] + k * unit[b] for a, b in EDGES for k in range(1, degree)]
@@ -22,7 +23,8 @@ def tetrahedron_nodes(degree):
 
 
 def shape_functions(nodes, degree, at):
-    """Those of the nodes (barycentric coordinates times the degree) at points (barycentric): a row for each point."""
+    """Values of the shape functions of the nodes (barycentric coordinates times the degree) at the points @p at (barycentric coordinates): a
+    row for each point."""
     result = np.ones((len(at), len(nodes)))
     for j, node in enumerate(nodes):
         for i, n in enumerate(node):
@@ -32,7 +34,8 @@ def shape_functions(nodes, degree, at):
 
 
 def triangle_lattice(n):
-    """Points (barycentric coordinates times n) and triangles of a triangle whose edges are cut into n."""
+    """Cuts a triangle into n^2 triangles, with n parts along each edge. Returns their vertices (barycentric coordinates times n) and the
+    triangles."""
     points = [(n - j - k, j, k) for k in range(n + 1) for j in range(n + 1 - k)]
     number = {point: i for i, point in enumerate(points)}
     triangles = []
@@ -45,7 +48,8 @@ def triangle_lattice(n):
 
 
 def tetrahedron_lattice(n):
-    """Points (barycentric coordinates times n) and tetrahedra of a tetrahedron whose edges are cut into n: Kuhn's, n^3 of the same volume."""
+    """Cuts a tetrahedron into n^3 tetrahedra of the same volume (Kuhn's), with n parts along each edge. Returns their vertices (barycentric
+    coordinates times n) and the tetrahedra."""
     points = [(n - a, a - b, b - c, c) for a in range(n + 1) for b in range(a + 1) for c in range(b + 1)]
     number = {point: i for i, point in enumerate(points)}
     tetrahedra = []
@@ -60,16 +64,17 @@ def tetrahedron_lattice(n):
 
 
 class Pieces:
-    """Small straight pieces of curved ones. Their vertices are combinations of nodes: `at` gives values there from those at nodes.
+    """Curved faces or cells, cut into small straight pieces. The vertices of these are combinations of nodes: `at` interpolates values from
+    nodes to vertices.
 
-    `simplices` are their vertices, `owners` the cell of each.
+    `simplices` has the vertices of each straight piece, `owners` the cell that it belongs to.
     """
 
     def __init__(self, corners, nodes, reference_nodes, degree, lattice, owners):
         points, simplices = lattice
         n_cuts = points[0].sum()
         self.shapes = shape_functions(reference_nodes, degree, points / n_cuts)
-        # A vertex is the same wherever it is met: known by its corners and its place between them.
+        # Neighbours share vertices: a vertex is known by the corners that it lies between, and by its place between these.
         n_corners = points.shape[1]
         names = np.broadcast_to(corners[:, None, :], (len(corners), len(points), n_corners)) * (points > 0) + (points > 0) - 1
         order = np.argsort(names, axis=2, kind="stable")
@@ -84,13 +89,14 @@ class Pieces:
         self.pieces = np.repeat(np.arange(len(corners)), len(simplices))
 
     def at(self, values):
-        """Values at the vertices, interpolated from those at nodes."""
+        """Values at the vertices, interpolated from values at the nodes."""
         chosen = values[self.nodes[self.piece]]
         return np.einsum("vn,vn...->v...", self.shapes[self.place], chosen)
 
 
 def unique_rows(rows):
-    """The first of each set of equal rows of integers that are -1 or more, and for each row the number of its set."""
+    """Finds sets of equal rows of integers, which must be -1 or more. Returns the index of the first row of each set, and for each row the
+    number of its set."""
     widths = [max(int(column.max()) + 2, 2).bit_length() for column in rows.T]
     words, used = [np.zeros(len(rows), dtype=np.uint64)], 0
     for column, width in zip(rows.T, widths):
@@ -108,8 +114,8 @@ def unique_rows(rows):
 
 
 class Surface(Pieces):
-    """The surface of a body, faces that belong to one cell only, as triangles seen counter-clockwise from outside. Each face is cut into
-    subdivisions^2; with as many as the degree all its nodes are vertices."""
+    """The surface of a body, that is all faces that belong to one cell only, as triangles that are counter-clockwise seen from outside. Each
+    face is cut into subdivisions^2 triangles; if subdivisions is the degree, the vertices are the nodes."""
 
     def __init__(self, cells, degree, subdivisions):
         reference = tetrahedron_nodes(degree)
@@ -118,7 +124,7 @@ class Surface(Pieces):
         alone = np.flatnonzero(np.bincount(number)[number] == 1)
         cell, side = alone % len(cells), alone // len(cells)
         triangle_nodes, _ = triangle_lattice(degree)
-        # Nodes of a side in the order of the lattice.
+        # For each side of a cell, the numbers of its nodes in the cell, in the order of the lattice.
         index = {tuple(node): i for i, node in enumerate(reference.tolist())}
         local = np.zeros((4, len(triangle_nodes)), dtype=int)
         for s, face in enumerate(OUTWARD_FACES):
@@ -131,7 +137,8 @@ class Surface(Pieces):
         super().__init__(faces[alone], nodes, triangle_nodes, degree, triangle_lattice(subdivisions), cell)
 
     def lines(self, points, angle=None):
-        """Pairs of vertices: edges of faces, or with an angle [degrees] those that the surface is folded at by more than that."""
+        """Lines to draw, as pairs of vertices: the edges of all faces, or with an angle [degrees] only the edges where the surface is folded
+        by more than the angle."""
         sides = np.sort(self.simplices[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
         triangle = np.repeat(np.arange(len(self.simplices)), 3)
         order = np.lexsort(sides.T)
@@ -145,7 +152,7 @@ class Surface(Pieces):
 
 
 def inside(cells, degree, subdivisions):
-    """Cells as small straight tetrahedra, subdivisions^3 each."""
+    """The inside of cells as small straight tetrahedra, subdivisions^3 for each cell."""
     return Pieces(cells[:, :4], cells, tetrahedron_nodes(degree), degree, tetrahedron_lattice(subdivisions), np.arange(len(cells)))
 
 

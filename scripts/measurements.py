@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What scripts that measure share: runs of the program, kept for the next call, and the page that they write."""
+"""Classes and functions that the scripts measure_* share: runs of the program, which are kept for the next call, and the page that a
+script writes."""
 
 import argparse
 import csv
@@ -31,7 +32,8 @@ N_SIDE_BY_SIDE = 2
 
 
 class Results:
-    """What a run left behind. Status: done, failed, or late if it was stopped after its time. Processor time in s."""
+    """The results of a run. The status is done, failed, or late if the run took too long and was stopped. The processor time is in
+    s."""
 
     def __init__(self, directory, status, processor_time):
         self.directory = directory
@@ -56,12 +58,12 @@ class Results:
         return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
 
     def vectors(self, name):
-        """A row for each step: the column's three components."""
+        """The columns NAME_x, NAME_y and NAME_z of the history: a row for each row of the history."""
         history = self.history()
         return np.stack([history[f"{name}_{c}"] for c in "xyz"], axis=1)
 
     def nodes(self):
-        """The places of all nodes, at rest and in the last state."""
+        """Two arrays: the places of all nodes at rest, and in the last state."""
         reader = vtkHDFReader()
         reader.SetFileName(str(self.directory / "solution.vtkhdf"))
         reader.UpdateInformation()
@@ -79,7 +81,7 @@ class Runs:
         self.folder = folder
         self.version = subprocess.run([self.program, "--version"], capture_output=True, text=True, check=True).stdout
         self.count = 0
-        self.locks = defaultdict(threading.Lock)  # the same run is made once
+        self.locks = defaultdict(threading.Lock)  # so that two threads do not make the same run
         folder.mkdir(parents=True, exist_ok=True)
 
     def run(self, case, settings, seconds=120):
@@ -104,7 +106,7 @@ class Runs:
 
     @staticmethod
     def call(command, seconds):
-        """How the command ends, and its processor time [s]."""
+        """Runs the command, and returns its status (done, failed or late) and its processor time [s] as a text."""
         with tempfile.TemporaryFile("w+", encoding="utf-8") as messages:
             with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=messages) as process:
                 timer = threading.Timer(seconds, process.kill)
@@ -120,13 +122,14 @@ class Runs:
         return f"{name} {usage.ru_utime + usage.ru_stime:.4f}"
 
     def each(self, function, items):
-        """The function's values for all items, which it may make runs for."""
+        """Calls the function for all items, some at a time, and returns its values. The function may make runs."""
         with ThreadPoolExecutor(N_SIDE_BY_SIDE) as pool:
             return list(pool.map(function, items))
 
 
 class Page:
-    """What the sections collect: text, and requirements that are not met. Pictures are beside the file, with its name."""
+    """The page that the sections of a script write: its text, and the requirements that are not met. Pictures go to the folder
+    pictures beside the page; their names begin with the name of the page."""
 
     def __init__(self, file):
         self.pictures = file.parent / "pictures"
@@ -155,7 +158,7 @@ class Page:
 
 
 def number(value, digits=2):
-    """In scientific notation only where that is shorter."""
+    """The text of a number with so many digits, in scientific notation only if that is shorter."""
     if 10 ** (digits - 1) <= abs(value) < 1e4:
         return f"{value:.0f}"
     return f"{value:.{digits}g}" if 1e-3 <= abs(value) < 1e4 or value == 0 else f"{value:.{digits - 1}e}"

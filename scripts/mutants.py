@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Finds what can be mutated in C++ sources, and writes sources that have many mutants, chosen at run time (for
+"""Finds the mutants of C++ sources, and writes sources that contain many mutants, of which one is chosen at run time (for
 scripts/mutation_score).
 
 A mutant replaces one token, or leaves one statement out. The expression around it, its slot, becomes
-`(corotet_mutant(17) ? (mutated) : (original))`. A slot ends at brackets, commas, assignments, `?`, `:`, `;`, keywords and, unless they
-are what is mutated, `&&` and `||`, so that the parentheses change nothing. Sources are read as tokens; that they are formatted by
-clang-format tells binary operators (blanks on both sides) from others. What this gets wrong does not compile, and is left out.
+`(corotet_mutant(17) ? (mutated) : (original))`. A slot ends at brackets, commas, assignments, `?`, `:`, `;` and keywords, and at `&&` and
+`||` unless one of these is mutated, so that the parentheses change nothing. Sources are read as tokens. They are formatted by
+clang-format, so binary operators are known by blanks on both sides. A mutant that is made wrongly does not compile, and is left out.
 """
 
 import bisect
 import collections
 import re
 
-# One mutant: text[edit] becomes new; slot is the expression or statement that is written twice; both are pairs of offsets.
+# One mutant: text[edit] becomes new. slot is the expression or statement that is written twice. edit and slot are pairs of offsets.
 Mutant = collections.namedtuple("Mutant", "file line edit new slot statement kind")
 
 TOKEN = re.compile(r"""
@@ -30,15 +30,15 @@ BINARY = {"+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["/"], "<": ["<="
 UPDATES = {"+=": ["-="], "-=": ["+="], "*=": ["/="], "/=": ["*="]}
 NAMES = {"min": "max", "max": "min", "true": "false", "false": "true", "sin": "cos", "cos": "sin"}
 BOUND_NAMES = {"return", "throw", "else", "do", "case", "default", "new", "delete", "const", "in"}
-# What is not run, is for developers only, or spares time.
+# Arguments of these are not mutated: they are not run, are for developers only, or only spare time.
 UNEVALUATED = {"sizeof", "decltype", "noexcept", "static_assert", "requires", "alignas", "Assert", "AssertThrow", "AssertDimension",
                "AssertIndexRange", "__builtin_expect", "reserve"}
-# Statements without a result: what is left out with them is time, memory, or a line of the log.
+# Statements that are never left out, because no result depends on them: only time, memory, or a line of the log.
 NO_RESULT = re.compile(r"\breserve\(|\bshrink_to_fit\(|^\(void\)|Assert|^COROTET|^DEAL_II|Scope|\bTimer|^static_cast<void>|\blog\.\w+\(")
 
 
 def blanks(match):
-    """In the place of what was found, unless that is a string."""
+    """As many blanks as the match is long; a string is kept as it is."""
     return match.group(0) if match.group(0)[0] in "\"'" else re.sub(r"[^\n]", " ", match.group(0))
 
 
@@ -51,10 +51,10 @@ def without_preprocessor(text):
 
 
 class Source:
-    """A file, its tokens, and which bracket belongs to which."""
+    """A file with its tokens and its pairs of brackets."""
 
     def __init__(self, name, text):
-        # All texts have the same offsets.
+        # Comments and the preprocessor's lines are replaced by blanks, so that offsets are the same in all texts.
         self.name, self.code = name, without_comments(text)
         self.text = without_preprocessor(self.code)
         self.tokens = [Token(match.lastgroup, match.group(0), match.start(), match.end()) for match in TOKEN.finditer(self.text)]
@@ -66,7 +66,7 @@ class Source:
         return bisect.bisect_right(self.line_starts, offset)
 
     def match_brackets(self):
-        """Partners of brackets, and for each token the innermost bracket that it is in."""
+        """Finds the partner of each bracket, and for each token the innermost bracket that it is in."""
         self.partner, self.outer, open_brackets = {}, [], []
         for i, token in enumerate(self.tokens):
             if token.kind == "sign" and token.text in ")]}" and open_brackets:
@@ -77,7 +77,7 @@ class Source:
                 open_brackets.append(i)
 
     def find_templates(self):
-        """Tokens that are arguments of templates."""
+        """Finds the tokens that are arguments of templates."""
         self.in_template, depth, brackets = [False] * len(self.tokens), [], 0
         for i, token in enumerate(self.tokens):
             if token.text == "<" and i and self.tokens[i - 1].kind == "name" and (not self.blank(token.start - 1) or self.tokens[i - 1].text == "template"):
@@ -102,7 +102,7 @@ class Source:
         return not self.text[self.line_starts[self.line(start) - 1]:start].strip()
 
     def is_block(self, i):
-        """Whether a brace opens a block of statements, or a class, not the values of an object."""
+        """Whether a brace opens a block of statements or a class, and not a list of values."""
         return self.begins_line(i) and not self.tokens[i - 1].text in ("=", ",", "(", "{", "return") or self.tokens[i - 1].text in (")", "]", "const", "mutable", "noexcept")
 
     def is_bound(self, i, logical):
@@ -112,7 +112,7 @@ class Source:
         return text in (",", ";", "?", ":") or text in ASSIGNMENTS or (kind == "name" and text in BOUND_NAMES) or (logical and text in ("&&", "||"))
 
     def slot(self, first, last, logical):
-        """The tokens of the expression around tokens first ... last; with @p logical it ends at && and ||."""
+        """The first and the last token of the expression around the tokens first ... last. With @p logical the expression ends at && and ||."""
         while first > 0 and not self.is_bound(first - 1, logical) and self.tokens[first - 1].text not in ("(", "[", "{"):
             if self.tokens[first - 1].text in (")", "]", "}"):
                 start = self.partner[first - 1]
@@ -135,7 +135,7 @@ class Source:
         return first, last
 
     def is_run(self, i):
-        """Whether the token is in code that runs: no constant, type, template argument, assertion."""
+        """Whether the token is in code that runs, and not in a constant, type, template argument or assertion."""
         if self.in_template[i]:
             return False
         outer = self.outer[i]
@@ -164,7 +164,8 @@ class Source:
         return False
 
     def statement(self, i):
-        """The tokens of the expression statement that begins with token i, its semicolon included; None if it is another kind."""
+        """The first and the last token of the expression statement that begins with token i, with its semicolon. None if token i does not begin such a
+        statement."""
         before, token = self.tokens[i - 1], self.tokens[i]
         starts = before.text in (";", "else") or (before.text == "{" and self.is_block(i - 1)) or \
             (before.text == "}" and (i - 1) in self.partner and self.is_block(self.partner[i - 1])) or \
@@ -236,12 +237,12 @@ class Source:
                 yield self.mutant(i, f"{new}{suffix}", (i, i), False, "integer")
         elif re.search(r"[.eE]", self.tokens[i].text):
             value = float(self.tokens[i].text.rstrip("fFlL"))
-            # Smaller ones are bounds of round-off.
+            # Smaller numbers are bounds of round-off, and are not mutated.
             if value == 0 or value > 1e-4:
                 yield self.mutant(i, f"(2 * {self.tokens[i].text})" if value else "1.", (i, i), False, "factor")
 
     def indices(self, i):
-        """x[i][j] becomes x[j][i]."""
+        """Mutants that exchange two indices: x[i][j] becomes x[j][i]."""
         texts = [token.text for token in self.tokens[i:i + 6]]
         if len(texts) == 6 and texts[0] == texts[3] == "[" and texts[2] == texts[5] == "]" and texts[1] != texts[4] and \
                 all(self.tokens[k].kind in ("name", "number") for k in (i + 1, i + 4)):
@@ -254,7 +255,7 @@ class Source:
                 yield Mutant(self.name, self.line(slot[0]), (self.tokens[i].start, slot[1]), f"[{texts[4]}][{texts[1]}]", slot, False, "indices")
 
     def mutants(self):
-        """All mutants: a list for each place."""
+        """All mutants of the file: a list of alternatives for each place."""
         for i in range(1, len(self.tokens)):
             token, found = self.tokens[i], []
             if not self.is_run(i):
@@ -282,13 +283,13 @@ def one_line(text):
 
 
 def shown(source, mutant):
-    """What the slot was, and what it is with the mutant."""
+    """Two texts: the original code of the slot, and its code with the mutant."""
     (start, end), (first, last) = mutant.slot, mutant.edit
     return one_line(source.text[start:end]), one_line(source.text[start:first] + mutant.new + source.text[last:end])
 
 
 def with_mutants(source, numbered):
-    """The text of a source with mutants (a dictionary number -> mutant), and for each line of it the set of numbers written there."""
+    """Writes mutants (a dictionary number -> mutant) into a source. Returns its text, and for each line the set of numbers of mutants in it."""
     slots = collections.defaultdict(list)
     for number, mutant in sorted(numbered.items()):
         slots[(mutant.slot, mutant.statement)].append(number)

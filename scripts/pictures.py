@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What pictures of the documentation are made of: states of a run, displaced surfaces, colour bars. Works without a display. Needs PyVista and
+"""Parts of the pictures of the documentation: states of a run, displaced surfaces, colour bars. Works without a display. Needs PyVista and
 matplotlib (packages of scripts/packages.txt)."""
 
 import pathlib
@@ -24,7 +24,7 @@ class Results(Run):
     """The results of one run, with states as meshes of PyVista."""
 
     def state(self, time):
-        """The mesh with the data of the result nearest to @p time."""
+        """The mesh with the data of the state nearest to @p time."""
         state = np.abs(self.times - time).argmin()
         cells = np.insert(self.cells, 0, self.cells.shape[1], axis=1).ravel()
         grid = pv.UnstructuredGrid(cells, np.full(len(self.cells), pv.CellType.LAGRANGE_TETRAHEDRON), self.points)
@@ -36,10 +36,10 @@ class Results(Run):
 
 
 def surface(grid, warp=1.0, subdivisions=4):
-    """The displaced surface; curved elements are drawn curved."""
+    """The displaced surface of a mesh. Curved cells stay curved."""
     moved = grid.copy(deep=True)
     moved.points = grid.points + warp * grid["displacement"]
-    # Averages of cells at nodes: the eye wants smooth colours.
+    # Data of cells become averages at nodes, for smooth colours.
     smooth = moved.cell_data_to_point_data(pass_cell_data=False)
     smooth.cell_data["cell"] = np.arange(smooth.n_cells)
     return smooth.extract_surface(nonlinear_subdivision=subdivisions)
@@ -74,7 +74,7 @@ def camera(p, focus, direction, height):
 
 
 def image_of(p):
-    """What the plotter shows, without white margins."""
+    """The picture that the plotter shows, without white margins."""
     image = p.screenshot(return_img=True)
     p.close()
     rows, columns = np.nonzero((image < 255).any(axis=2))
@@ -90,7 +90,8 @@ def add_image(figure, axes, image, limits, title):
 
 
 def cell_edges(mesh, angle=30):
-    """The edges of cells in a displaced surface: lines between triangles of different cells, or with an edge of the body in between."""
+    """The edges of cells in a displaced surface: lines between triangles that belong to different cells, or that meet at an edge of the
+    body."""
     triangles = mesh.regular_faces
     sides = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     owners = np.repeat(np.arange(len(triangles)), 3)

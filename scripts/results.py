@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The results of one run, read from its folder: the mesh, states, histories. Needs h5py and NumPy."""
+"""Reads the results of a run from its folder: the mesh, states, histories. Needs h5py and NumPy."""
 
 import csv
 import os
@@ -11,7 +11,7 @@ import numpy as np
 
 from commands import WrongInput, is_number, one_line
 
-# The run may go on, and results may be where nothing can be locked: files are only read here.
+# Files must not be locked: they are only read here, the run may still write them, and some file systems cannot lock files.
 os.environ.setdefault("HDF5_USE_FILE_LOCKING", "FALSE")
 import h5py  # noqa: E402  (the environment is read when it is loaded)
 
@@ -20,7 +20,7 @@ MOST_TIMES = 100_000
 
 
 class BadPart(Exception):
-    """A file that another one refers to is missing, or cannot be read for the reason that is given."""
+    """A file that another file refers to is missing, or cannot be read; then the reason is given."""
 
     def __init__(self, path, referrer, reason=None):
         super().__init__(path, referrer, reason)
@@ -28,8 +28,9 @@ class BadPart(Exception):
 
 
 def check_parts(path, data, checked=None):
-    """HDF5 takes zeros for what a virtual dataset refers to and is not there: all files that have parts of @p data, a dataset of the file @p path, must
-    open and have their part, and so must those that they refer to. Names are relative to the folder of the file that has them."""
+    """Raises BadPart unless all files that have parts of @p data, a dataset of the file @p path, can be opened and have their part, and so on for files
+    that these refer to. HDF5 itself would silently read zeros in place of missing parts of a virtual dataset. File names in a file are relative to its
+    folder."""
     checked = set() if checked is None else checked
     for name, part in sorted({(source.file_name, source.dset_name) for source in data.virtual_sources()} if data.is_virtual else set()):
         source = path if name == "." else path.parent / name
@@ -46,10 +47,10 @@ def check_parts(path, data, checked=None):
 
 
 class Run:
-    """A folder of results, as they were when it was opened. Numbers are those of the files, in their units.
+    """The results in a folder, as they were when the folder was opened. Numbers have the units of the files.
 
-    `points` [m] are those of the body at rest, `cells` the nodes of each cell in VTK's order, `times` those of the states (for modes their
-    numbers), `point_fields` and `cell_fields` the numbers of components by name.
+    `points` [m] are the nodes of the body at rest, `cells` the numbers of the nodes of each cell in VTK's order, `times` the times of the states (the
+    numbers of modes), `point_fields` and `cell_fields` the numbers of components of the arrays at nodes and of cells, by name.
     """
 
     def __init__(self, folder):
@@ -113,7 +114,7 @@ class Run:
             raise WrongInput(f"{self.folder / 'solution.vtkhdf'} is damaged: {name}: {one_line(error)}") from error
 
     def point_data(self, name, state):
-        """Values at nodes in a state, given by its index."""
+        """Values of an array at the nodes in a state, which is given by its index."""
         return self.rows("PointData", name, len(self.points), state)
 
     def cell_data(self, name, state):
@@ -131,15 +132,15 @@ class Run:
         return int(np.abs(self.times - time).argmin())
 
     def margin(self):
-        """What times of command lines may differ by, as they are rounded."""
+        """The difference that is allowed between times of a command line and times of states, as both are rounded."""
         return 1e-9 * max(abs(self.times[0]), abs(self.times[-1]))
 
     def between(self, first, last):
         return np.flatnonzero((self.times >= first - self.margin()) & (self.times <= last + self.margin())).tolist()
 
     def choose(self, words):
-        """The states meant by words of a command line: `all`, times, or FROM:TO[:NUMBER], which are all between or a number of states at
-        equal distances; each state once, in the order of time."""
+        """The states that words of a command line mean, each once, in the order of time. A word is `all`, a time, FROM:TO for all states in between, or
+        FROM:TO:NUMBER for so many states at equal distances."""
         chosen = set()
         for word in words:
             parts = word.split(":")
@@ -169,13 +170,13 @@ class Run:
         try:
             with open(path, newline="", encoding="utf-8") as file:
                 names, *rows = list(csv.reader(file))
-            # A last row may be under way.
+            # The last row may be incomplete, as the run may be writing it.
             return {name: np.array([float(row[i]) for row in rows if len(row) == len(names)]) for i, name in enumerate(names)}
         except (OSError, ValueError, csv.Error) as error:
             raise WrongInput(f"{path} cannot be read: {one_line(error)}") from error
 
     def entry(self, section, name):
-        """An entry of a top section of the parameters, or an empty text."""
+        """The value of an entry in a top section of the parameters, or an empty text if the file has no such entry."""
         path = self.folder / "parameters.prm"
         text = path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
         found = re.search(rf"^subsection {re.escape(section)}\n(?:  .*\n|\n)*?  set {re.escape(name)}\s*=([^#\n]*)", text, re.MULTILINE)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""A picture of displaced bodies, coloured by a field, with a legend: what scripts/render draws a frame with. Needs PyVista, Pillow and
-matplotlib; a display is that of display.have_display()."""
+"""Draws a picture of displaced bodies, coloured by a field, with a legend, for scripts/render. Needs PyVista, Pillow and matplotlib. Call
+display.have_display() first."""
 
 import dataclasses
 import functools
@@ -18,7 +18,7 @@ BLACK, GREY = (30, 30, 30), (120, 120, 120)
 
 @dataclasses.dataclass
 class Body:
-    """What is drawn of a state: the vertices' places, triangles, values at vertices or of triangles, lines between vertices."""
+    """A body in a state, as it is drawn: places of its vertices, triangles, values at the vertices or of the triangles, and lines between vertices."""
     points: np.ndarray
     triangles: np.ndarray
     values: np.ndarray
@@ -27,7 +27,8 @@ class Body:
 
 @dataclasses.dataclass
 class Legend:
-    """Values are drawn in the colours from `low` to `high`; `least` and `largest` are those of the data. In the unit of the title."""
+    """The legend. Colours go from the value `low` to the value `high`; `least` and `largest` are the extreme values of the data. All are in the unit
+    of the title."""
     title: str
     low: float
     high: float
@@ -37,12 +38,12 @@ class Legend:
     whole_numbers: bool = False
 
     def limits(self):
-        """What colours belong to; not empty."""
+        """The interval of values that the colours span. It is never empty."""
         tiny = 1e-12 * max(abs(self.low), abs(self.high))
         return (self.low, self.high) if self.high - self.low > tiny else (self.low, self.low + max(tiny, 1e-300))
 
     def ticks(self):
-        """Values and their texts: the ends, and round numbers between them."""
+        """The ticks of the legend, as (value, text): the ends, and round numbers between them."""
         if self.whole_numbers:
             numbers = sorted({int(self.low), int(self.high)} | {int(t) for t in matplotlib.ticker.MaxNLocator(6, integer=True).tick_values(self.low, self.high)
                                                                  if self.low < t < self.high})
@@ -56,7 +57,7 @@ class Legend:
 
 
 def number_text(value):
-    """With three digits, or all of whole numbers up to 9999."""
+    """The text of a number: three digits, or all digits of a whole number up to 9999."""
     return f"{value:.{4 if abs(value) >= 999.5 else 3}g}".replace("e-0", "e-").replace("e+0", "e+").replace("-", "\N{MINUS SIGN}")
 
 
@@ -70,7 +71,7 @@ def font(pixels):
 
 
 def draw_bodies(view, bodies, outline, legend):
-    """The bodies and the outline, lines in space, as an image without texts."""
+    """Draws the bodies, and the outline as lines in space. Returns an image without texts."""
     plotter = pv.Plotter(off_screen=True, window_size=view.size, lighting="light kit")
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
@@ -83,7 +84,7 @@ def draw_bodies(view, bodies, outline, legend):
         plotter.add_mesh(mesh, scalars="values", clim=legend.limits(), cmap=legend.colours, show_scalar_bar=False, specular=0.15, specular_power=20,
                          ambient=0.25, diffuse=0.85, smooth_shading=True, nan_color="grey")
         if len(body.lines):
-            # A little towards the eye, so that the surface does not hide them.
+            # The lines are moved a little towards the eye, so that the surface does not hide them.
             add_lines(plotter, body.points + 1e-3 * view.height * view.towards, body.lines, BLACK, 1.2 * font_size(view.size) / 20, 0.45)
     view.set_camera(plotter)
     image = Image.fromarray(plotter.screenshot(return_img=True))
@@ -97,7 +98,7 @@ def add_lines(plotter, points, lines, colour, width, opacity):
 
 
 def draw_legend(image, legend):
-    """At the bottom: a bar of colours with its ends, and what is shown."""
+    """Draws the legend at the bottom: a bar of colours with ticks, and the title."""
     width, height = image.size
     f = font_size(image.size)
     draw = ImageDraw.Draw(image)
@@ -120,7 +121,7 @@ def draw_legend(image, legend):
 
 
 def draw_axes(image, view):
-    """Arrows along x, y and z, in the lower left corner."""
+    """Draws arrows along x, y and z in the lower left corner."""
     f = font_size(image.size)
     draw = ImageDraw.Draw(image)
     origin = np.array([2.6 * f, image.size[1] - 2.6 * f])
@@ -134,7 +135,7 @@ def draw_axes(image, view):
 
 
 def draw_label(image, place, away, text):
-    """A text beside a place, on the side that the vector points to."""
+    """Draws a text beside a place, on the side that the vector @p away points to."""
     f = font_size(image.size)
     draw = ImageDraw.Draw(image)
     box = np.array([draw.textlength(text, font(f)), f])

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Ways to recover stress at the nodes, in NumPy: that of the program and others, to be compared by scripts/measure_stress.
+"""Several ways to recover stress at the nodes, in NumPy: the program's way and others. scripts/measure_stress compares them.
 
-All take the displacement of a run on one material. Stress has six components in VTK's order.
+All of them compute stress from the displacement of a run with one material. Stress has six components in VTK's order.
 """
 
 import math
 
 import numpy as np
 
-# Least ratio of eigenvalues of a fit's normal equations, by degree, as in the program.
+# Smallest ratio of the least to the largest eigenvalue of the normal equations that a fit may have, by degree, as in the
+# program.
 LEAST = {1: 2e-2, 2: 3e-3, 3: 3e-4}
 LEAST_OF_LAYERS = {1: 2e-2, 2: 5e-4, 3: 5e-5}
 ORDER = [(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2)]
@@ -33,7 +34,7 @@ def derivatives(exponents, x):
 
 
 def stiffness_points(degree):
-    """The points of the program's rule: 1, 4, 14."""
+    """The points of the program's quadrature rule for the stiffness: 1, 4 or 14 points for degree 1, 2 or 3."""
     if degree == 1:
         return np.full((1, 3), 0.25)
 
@@ -48,7 +49,8 @@ def stiffness_points(degree):
 
 
 class Recovery:
-    """points, cells, displacement: of the nodes, as VTK has them; parametric: reference coordinates of a cell's nodes."""
+    """Recovers stress at the nodes. points, cells, displacement: places of the nodes, nodes of the cells and displacement at the
+    nodes, as VTK has them; parametric: reference coordinates of the nodes of a cell; lame: lambda and mu."""
 
     def __init__(self, points, cells, displacement, parametric, lame):
         self.points, self.cells, self.displacement, self.lame = points, cells, displacement, lame
@@ -66,7 +68,7 @@ class Recovery:
         self.is_surface = self.find_surface()
 
     def raw(self, xi):
-        """Positions and stress of the displacement at points of all cells."""
+        """Positions of the points xi (reference coordinates) in all cells, and the raw stress of the displacement there."""
         values = power(self.exponents, xi) @ self.inverse
         gradients = np.einsum("qmk,mi->qik", derivatives(self.exponents, xi), self.inverse)
         jacobian = np.einsum("cia,qik->cqak", self.points[self.cells], gradients)
@@ -88,7 +90,7 @@ class Recovery:
         return result
 
     def raw_mean(self):
-        """Plain mean of the raw stress at the nodes of cells."""
+        """At each node, the plain mean of the raw stress of its cells there."""
         stress = self.raw(self.parametric)[1]
         sums, counts = np.zeros((len(self.points), 6)), np.zeros(len(self.points))
         np.add.at(sums, self.cells, stress)
@@ -102,8 +104,8 @@ class Recovery:
         return cells
 
     def fit(self, vertex, n_layers=1, degree=None, decay=0, before=()):
-        """A polynomial fitted to what those before leave over: centre, scale, exponents, coefficients. Badly determined ones
-        of full degree give way to those of one degree less."""
+        """Fits a polynomial to the raw stress around a vertex, less the polynomials in @p before. Returns its centre, scale,
+        exponents and coefficients. If a polynomial of full degree is badly determined, the degree is one less."""
         least = 0 if degree is not None else (LEAST if n_layers == 1 else LEAST_OF_LAYERS)[self.degree]
         cells = self.layers(vertex, n_layers)
         corners = self.points[self.cells[cells, :4].ravel()]
@@ -121,8 +123,9 @@ class Recovery:
         return centre, scale, lower, np.linalg.solve(normal, (basis * weights[:, None]).T @ stress)
 
     def recovered(self, at_surface, inner_first=False):
-        """Values at the nodes from polynomials of the vertices: at_surface(vertex) gives those, one after the other, of vertices
-        of the surface. inner_first: nodes that belong to patches of inner vertices take these alone."""
+        """Stress at the nodes, from polynomials of the vertices around them. at_surface(vertex) gives the polynomials of a
+        vertex at the surface, whose sum counts. inner_first: nodes that belong to patches of inner vertices take only the
+        polynomials of these."""
         sums, weights = np.zeros((3, len(self.points), 6)), np.zeros((3, len(self.points)))
         for v in self.vertices:
             fits = [] if self.is_surface[v] else [self.fit(v)]
@@ -142,7 +145,7 @@ class Recovery:
         return sums[rank, node] / weights[rank, node][:, None]
 
     def candidates(self):
-        """Names and values at the nodes; the last is that of the program."""
+        """All ways to recover stress: {name: stress at the nodes}. The last is the way of the program."""
         p = self.degree
 
         def two_steps(v):

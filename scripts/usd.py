@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The displaced surface as USD, with samples of its points and colours in time. Needs Pixar's Python package pxr."""
+"""Writes the displaced surface as USD, with points and colours for each time. Needs Pixar's Python package pxr."""
 
 from commands import MARK
 from exports import colours_of

@@ -19,10 +19,10 @@ Written by `scripts/verify --document`; do not edit. Every figure and every pict
 
     make verify
 
-runs the decks in `parameters/verification/`, cases with a known answer, and compares: {verdict}.
+runs the decks in `parameters/verification/`, cases with a known answer, and compares their results with it: {verdict}.
 {time}
 
-Each deck has the checks in its section `Verification`, with the source of the references and the reason of the tolerances. The program itself makes the
+The section `Verification` of each deck has the checks, the source of the reference values and the reason of the tolerances. The program itself makes the
 comparison whenever such a file is run, writes `verification.csv` beside the other results, and ends with status 2 if a check fails.
 
 ## Checks
@@ -32,16 +32,17 @@ A check is `NAME: STATISTIC FORMULA where CONDITION = REFERENCE +- TOLERANCE`, f
     tip at P = 5: last -tip_z where time == 5 = 0.71379 +- 0.1 %
 
 - The statistic is `first`, `last`, `min`, `max`, `mean` or `range` (the largest less the smallest value).
-- Formula and condition are in the columns of [`history.csv`](results.md#historycsv), of [`modes.csv`](results.md#modescsv) with `Type = modes`, or of
-  [`study.csv`](studies.md#results) with `Type = convergence study`, in the syntax of all expressions. The rows where the condition holds
-  count; without `where`, all.
+- Formula and condition may contain the columns of [`history.csv`](results.md#historycsv), of [`modes.csv`](results.md#modescsv) with `Type = modes`, or of
+  [`study.csv`](studies.md#results) with `Type = convergence study`, in the syntax of all expressions. Only rows where the condition holds
+  count; without `where`, all rows count.
 - Reference and tolerance are numbers or formulas of numbers; a tolerance that ends in % is relative to the reference. `< REFERENCE` or `> REFERENCE` in place
-  of `= REFERENCE +- TOLERANCE` is a bound. What is not a number fails, and so does a check without any row.
+  of `= REFERENCE +- TOLERANCE` is a bound. A check fails if its value is not a number, or if no row counts.
 - Checks are separated by semicolons.
 
 ## Cases
 
-The error is the largest of all checks, as a part of its tolerance; bounds have none. Seconds are those of a processor.
+The column "error" has the largest error among the checks of a case, in percent of its tolerance; bounds have no tolerance. The last column has the processor
+time in seconds.
 
 | | case | what it is | checks | error | pass | seconds |
 | --- | --- | --- | ---: | ---: | --- | ---: |
@@ -54,13 +55,13 @@ def comment_of(deck):
 
 
 def title_of(comment):
-    """The first clause of a deck's comment, without the numbers that it goes on with."""
+    """The first clause of a deck's comment, without the numbers that may follow in it."""
     sentence = re.split(r"[.:;]\s", " ".join(comment.split()) + " ")[0]
     return re.split(r", [^,]* = ", sentence)[0]
 
 
 def error_of(outcome):
-    """The largest error of a deck's checks over its tolerance."""
+    """The largest ratio of error to tolerance among the checks of a deck, as a text."""
     ratios = []
     for row in outcome.rows:
         if row["tolerance"] not in ("above", "below"):
@@ -72,7 +73,7 @@ def error_of(outcome):
 
 
 def filled(text):
-    """A paragraph; other pages that it names become links."""
+    """The text as a paragraph with lines of the right length. Names of other pages in it become links."""
     text = re.sub(r"\bdoc/(\w+\.md)", r"[doc/\1](../\1)", text)
     return textwrap.fill(text, WIDTH, break_long_words=False, break_on_hyphens=False)
 
@@ -90,7 +91,7 @@ def index_row(outcome):
 
 
 def page(outcome, caption):
-    """A deck's page: its comment, its picture, its source, its tolerances, what it found."""
+    """The page of a deck: its comment, its picture, its source, the reason of its tolerances, and the table of its checks."""
     name = outcome.deck.stem
     comment = comment_of(outcome.deck)
     text = re.sub(r"(?:^ +.*\n)+", lambda formulas: f"\n{textwrap.indent(formulas.group(0), '    ')}\n", comment, flags=re.MULTILINE)
@@ -107,7 +108,7 @@ def page(outcome, caption):
 
 
 def write(outcomes, verdict, time):
-    """Writes the index and all pages, draws their pictures, and removes those of decks that are no more."""
+    """Writes the index and all pages, and draws their pictures. Removes pages and pictures of decks that no longer exist."""
     names = {outcome.deck.stem for outcome in outcomes}
     unknown = set(verification_pictures.LOOKS) - names
     assert not unknown, f"LOOKS of scripts/verification_pictures.py has decks that are no more: {', '.join(sorted(unknown))}"

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Pictures of verification decks, doc/pictures/verification/*.png, from their results.
+"""Draws the pictures of verification decks, doc/pictures/verification/*.png, from their results.
 
-What is drawn follows from the results: the lowest shapes of modes, errors over the size of cells of a study, a computed history and the exact one where a
-check has a formula of time, else the displaced body. LOOKS has what shows a deck better than that.
+The kind of picture follows from the results: the shapes of the lowest modes; the errors of a study over the size of cells; a computed history and the
+exact one if a check compares a column with a formula of time; else the displaced body. LOOKS has other settings for decks that these pictures do not show
+well.
 """
 
 import csv
@@ -22,31 +23,32 @@ FOLDER = PICTURES / "verification"
 COLOURS_OF_A_FILE = 255
 COMPUTED, EXACT, OTHER = "#0072b2", "#d55e00", "#009e73"
 SLANTED, FROM_FRONT, FROM_ABOVE = (0.45, -1, 0.45), (0.25, -1, 0.2), (0.2, 0.25, 1)
-MAY_BE_DRAWN_AS_IT_IS = 0.05  # of the body's size: displacements that are seen without magnification
+MAY_BE_DRAWN_AS_IT_IS = 0.05  # displacements of this part of the body's size are seen without magnification
 
 
 @dataclasses.dataclass
 class Look:
-    """How a body is shown; what is not given follows from its results."""
+    """How the picture of a deck is drawn."""
     quantity: str = "displacement"
-    times: tuple = ()  # of the states; none: the last
+    times: tuple = ()  # times of the states that are shown; if empty, the last state
     all_states: bool = False
     direction: tuple = SLANTED
     up: tuple = (0, 0, 1)
     unit: str = "m"
-    plot: object = None  # draws histories beside or, without a body, in place of it
-    body: bool = True
+    plot: object = None  # a function that draws histories beside the body, or in place of it
+    body: bool = True  # whether the body is drawn
 
 
 def evaluate(formula, **columns):
-    """A formula of a parameter file; it may contain columns of a history."""
+    """The value of a formula of a parameter file. It may contain columns of a history, which are given by name."""
     functions = {name: getattr(np, name) for name in ("sin", "cos", "tan", "exp", "log", "sqrt", "abs", "pi")}
     functions |= {"a" + name: getattr(np, "arc" + name) for name in ("sin", "cos", "tan")}
     return eval(formula.replace("^", "**"), {"__builtins__": {}}, functions | columns)
 
 
 def exact_history(outcome):
-    """The first column that a check compares with a formula of time or of the step, "max abs(tip_x - FORMULA) = 0", and that formula."""
+    """The first column that a check compares with a formula of the time or of the step, as in "max abs(tip_x - FORMULA) = 0", and that formula. None if
+    there is no such check."""
     for check in outcome.entry("Checks").split(";"):
         match = re.search(r"max abs\((\w+) ([-+]) ([^=]*)\)\s*=\s*0 ", check)
         if not match or not re.search(r"\b(time|step)\b", match.group(3)):
@@ -55,14 +57,14 @@ def exact_history(outcome):
         formula = formula.strip() if sign == "-" else f"-({formula.strip()})"
         try:
             evaluate(formula, time=1.0, step=1.0)
-        except (NameError, SyntaxError):  # it has other columns, too, or goes on behind the parenthesis
+        except (NameError, SyntaxError):  # the formula has other columns, too, or the check goes on after the parenthesis
             continue
         return column, formula
     return None
 
 
 def draw_exact(figure, history, column, formula):
-    """A computed history on the exact one, and their difference below."""
+    """Draws a computed history over the exact one, and the difference of both below."""
     exact = evaluate(formula, time=history["time"], step=history["step"])
     time, time_unit = with_prefix(history["time"].max(), "s")
     unit = "N" if column.startswith("reaction") else "m"
@@ -87,7 +89,8 @@ def finish(axes, abscissa):
 
 
 def draw_step_load(figure, history):
-    """The tip's saw-tooth and the stress at the root, which jumps: parameters are those of the deck, c = 5000 m/s, 2 p L / E = 1 mm."""
+    """Draws the displacement of the tip, a saw-tooth, and the stress at the root, which jumps. Numbers are those of the deck: c = 5000 m/s,
+    2 p L / E = 1 mm."""
     time = 1e3 * history["time"]
     tip, root = figure.subplots(2, 1, sharex=True)
     tip.plot((0, 0.4, 0.8), (0, 1, 0), color=EXACT, linewidth=4, alpha=0.4, label="exact")
@@ -111,7 +114,7 @@ def draw_energies(figure, history):
 
 
 def draw_conserved(figure, history):
-    """Energies, and how far momenta and the sum of energies are from what they were."""
+    """Draws the energies, and the changes of momenta and of the total energy since the start."""
     energies, drift = figure.subplots(2, 1, sharex=True)
     energies.semilogy(history["time"], history["kinetic_energy"], color=COMPUTED, label="kinetic")
     energies.semilogy(history["time"][1:], history["elastic_energy"][1:], color=OTHER, label="elastic")
@@ -145,7 +148,8 @@ LOOKS = {
 
 
 def magnification(grids):
-    """What displacements are multiplied by: 1 if that shows, else a round number that makes them up to a tenth of the body."""
+    """The factor that displacements are multiplied by: 1 if they can be seen as they are, else a round number that makes them up to a tenth of the body's
+    size."""
     size = grids[0].length
     largest = max(np.linalg.norm(grid["displacement"], axis=1).max() for grid in grids)
     if largest == 0 or largest >= MAY_BE_DRAWN_AS_IT_IS * size:
@@ -159,7 +163,7 @@ def norm_of(mesh, quantity):
 
 
 def image_of_states(grids, look, warp, size=(1280, 900)):
-    """The displaced bodies in one picture with the outline at rest; that picture and the largest value of the quantity shown."""
+    """Draws the displaced bodies in one picture, with the outline at rest. Returns the picture and the largest value of the quantity shown."""
     meshes = [surface(grid, warp) for grid in grids]
     largest = max(norm_of(mesh, look.quantity).max() for mesh in meshes)
     p = plotter(size)
@@ -195,7 +199,7 @@ def draw_body(figure, run, look):
 
 
 def draw_modes(figure, run, look):
-    """The shapes of the lowest frequencies that are not zero, one of each."""
+    """Draws the shapes of the modes with the lowest frequencies that are not zero, one mode of each frequency."""
     with open(run.folder / "modes.csv", newline="", encoding="utf-8") as file:
         frequencies = np.array([float(row["frequency"]) for row in csv.DictReader(file)])
     groups = []
@@ -219,7 +223,7 @@ def draw_modes(figure, run, look):
 
 
 def columns_for(images, width, height, title=0.3):
-    """In how many columns images come out largest on a figure of that size [inches]."""
+    """The number of columns in which images come out largest on a figure of the given size [inches]."""
     rows, columns = np.max([image.shape[:2] for image in images], axis=0)
 
     def scale(n):
@@ -229,7 +233,7 @@ def columns_for(images, width, height, title=0.3):
 
 
 def draw_look(figure, run, look):
-    """The body, histories, or the one beside the other."""
+    """Draws the body, histories, or both side by side, as LOOKS says."""
     if look.body and look.plot:
         figure.set_size_inches(8, 4)
         left, right = figure.subfigures(1, 2)
@@ -240,28 +244,28 @@ def draw_look(figure, run, look):
     if look.plot:
         look.plot(right, run.history())
     if not look.body:
-        return "What is computed, on what theory has."
+        return "Computed histories, drawn over those of theory."
     several = look.all_states or len(look.times) > 1
     return f"The {'displaced body at several times' if several else 'last state'} with its cells, and the edges of the body at rest" + \
         ("; beside that, histories of the run." if look.plot else ".")
 
 
 def draw_results(figure, outcome):
-    """Draws a simulation or an analysis of modes; returns what is seen."""
+    """Draws the results of a simulation or of an analysis of modes; returns the caption."""
     run = Results(outcome.directory)
     look = LOOKS.get(outcome.deck.stem)
     exact = None if look else exact_history(outcome)
     if (outcome.directory / "modes.csv").exists():
         draw_modes(figure, run, look or Look())
-        return "Shapes of the lowest modes, one of each frequency; colours are displacements."
+        return "Shapes of the lowest modes, one mode for each frequency; colours show displacements."
     if exact:
         draw_exact(figure, run.history(), *exact)
-        return f"The computed history on the exact one, and the difference: `{exact[0]}` is to be `{exact[1]}`."
+        return f"The computed history, drawn over the exact one, and the difference of both: the exact value of `{exact[0]}` is `{exact[1]}`."
     return draw_look(figure, run, look or Look())
 
 
 def shrink(path):
-    """Few colours make small files; chosen such that they cover what there is, narrow colour bars as well."""
+    """Reduces the colours of a picture, to make the file small. The colours are chosen to cover all that occur, even in narrow colour bars."""
     with Image.open(path) as image:
         small = image.convert("RGB").quantize(COLOURS_OF_A_FILE, method=Image.Quantize.MAXCOVERAGE, kmeans=2, dither=Image.Dither.NONE)
     small.save(path, optimize=True)

@@ -1,4 +1,4 @@
-# Writes OUTPUT, the source that knows the program's version and git revision, if its content changed.
+# Writes OUTPUT, a source with the program's version and git revision, but only if its content has changed.
 execute_process(COMMAND git -c safe.directory=* -C ${SOURCE_DIR} describe --always --dirty --abbrev=12 --match=
   OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 if(NOT revision)

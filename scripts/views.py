@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Where a body is seen from. Needs NumPy."""
+"""Directions and views from which a body is seen. Needs NumPy."""
 
 import numpy as np
 
@@ -8,15 +8,15 @@ SIDES = {"front": (0, -1, 0), "back": (0, 1, 0), "left": (-1, 0, 0), "right": (1
 
 
 def direction_of(word):
-    """A vector for front, top, front-right-top and the like, or None; so of front-back, which is none."""
+    """The vector of a word such as front, top or front-right-top. None if the word is no direction, as front-back is not."""
     parts = word.split("-")
     direction = np.sum([SIDES[part] for part in parts], axis=0).astype(float) if all(part in SIDES for part in parts) else np.zeros(3)
     return direction if direction.any() else None
 
 
 class View:
-    """Where the body is seen from: vectors `right`, `up` and `towards` the eye, the point `centre` in the middle of the picture, and the
-    `height` [m] of the picture there. With a `distance` [m] of the eye it is a perspective one."""
+    """A view of the body: the vectors `right`, `up` and `towards` the eye, the point `centre` in the middle of the picture, and the `height` [m]
+    of the picture at that point. With a `distance` [m] of the eye from the centre, the view is a perspective."""
 
     def __init__(self, size, towards, up):
         self.size = size
@@ -29,11 +29,11 @@ class View:
         self.centre, self.height, self.distance = np.zeros(3), 1.0, None
 
     def coordinates(self, points):
-        """To the right, upwards and towards the eye, from the centre."""
+        """Coordinates of points in the view, relative to the centre: to the right, upwards and towards the eye."""
         return (points - self.centre) @ np.stack([self.right, self.up, self.towards], axis=1)
 
     def fit(self, points, margins, perspective):
-        """Shows all of the points, with margins in pixels: left, right, top, bottom."""
+        """Chooses centre, height and distance so that all points are seen, with margins in pixels: left, right, top, bottom."""
         left, right, top, bottom = margins
         width, height = max(self.size[0] - left - right, 16), max(self.size[1] - top - bottom, 16)
         seen = self.coordinates(points)
@@ -44,14 +44,14 @@ class View:
         middle = (low + high) / 2 + np.array([(right - left) / 2, (top - bottom) / 2, 0]) * scale
         self.centre = self.centre + middle @ np.stack([self.right, self.up, self.towards])
         if perspective:
-            # As near as all points stay inside of the cone of an angle of 30 degrees, in parallel margins.
+            # The eye comes as near as it can while all points stay within an angle of 30 degrees and within the margins.
             seen = self.coordinates(points)
             slopes = np.tan(np.radians(15)) * np.array([width, height]) / self.size[1]
             self.distance = (seen[:, 2] + (np.abs(seen[:, :2]) / slopes).max(axis=1)).max()
             self.height = 2 * np.tan(np.radians(15)) * self.distance
 
     def pixels(self, points):
-        """Where points are in the picture, from its upper left corner."""
+        """Places of points in the picture, in pixels from its upper left corner."""
         seen = self.coordinates(np.atleast_2d(points))
         scale = np.full(len(seen), self.size[1] / self.height)
         if self.distance:

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Checks the pages of a site: each link leads to a page, a file or a place that is there; nothing is loaded from a network; no path of this machine."""
+"""Checks the pages of a site: each link leads to a page, a file or a place that exists, nothing is loaded from a network, and no page contains a path of
+this machine."""
 
 import html.parser
 import pathlib
@@ -36,12 +37,13 @@ def is_local(target):
 
 
 def is_summary(site, page, file):
-    """Doxygen's pages have links to parts of themselves that it leaves out where all members are private."""
+    """Whether a link of @p page to @p file is one of Doxygen's links to a summary in the same page. Doxygen leaves out the summary if all members are
+    private, but not the link."""
     return page == file and page.is_relative_to(site / "api")
 
 
 def broken_links(site, page, parsed, pages, without):
-    """Those of a page, as messages."""
+    """Yields a message for each broken link of a page. Links into the folders @p without are not looked at."""
     for target in parsed.links + parsed.loaded:
         if not is_local(target):
             continue

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The gallery: ready cases, run for it in a shorter form, with a picture, the page of the run to click, and the parameter file."""
+"""Writes the gallery: ready cases, which are run for it in a shorter form, each with a picture, a link to the page of the run, and the parameter file."""
 
 import os
 import re
@@ -10,7 +10,7 @@ import sys
 from .sources import copy, write_page
 from .tree import ROOT
 
-# Cases of the gallery: what is changed to make them short, and what their picture shows (arguments of scripts/render).
+# The cases of the gallery: for each, the settings that make it short, and the arguments of scripts/render for its picture.
 CASES = {
     "cantilever": (["Time integration/End time = 0.8"], ["--time", "0.4", "--field", "von_mises", "--camera", "front"]),
     "spring": (["Time integration/End time = 0.3"], ["--time", "0.15", "--camera", "front"]),
@@ -31,17 +31,17 @@ by dragging, play its motion, choose what its colours show ([all that it can do]
 
 
 def title(text):
-    """The first clause of a case's comment."""
+    """The first clause of the comment that begins a case's parameter file."""
     comment = " ".join(re.sub(r"^# ?", "", line) for line in re.match(r"(?:#.*\n)+", text).group(0).splitlines())
     return re.split(r"[.:;]\s", comment + " ")[0].strip()
 
 
 def run_case(name, settings, picture, program, folder):
-    """Runs it, and puts report.html and a picture of it into the folder."""
+    """Runs the case, and writes the page of the run, NAME.html, and a picture, NAME.png, to the folder."""
     results = folder.parent.parent / "gallery-results"
     results.mkdir(exist_ok=True)
     overrides = [word for setting in settings for word in ("--set", setting)]
-    # Names are relative to where the program is started: its log has them.
+    # The log of the run shows the name of the case, so it is relative: the site must not contain paths of this machine.
     case = os.path.relpath(ROOT / "parameters" / f"{name}.prm", results)
     run_command(results, program.resolve(), case, "--quiet", "--output", name, *overrides)
     run_command(results, sys.executable, ROOT / "scripts" / "report", name, "--out", folder / f"{name}.html")

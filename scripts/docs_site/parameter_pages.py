@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""A page for each section of parameters: what the program says of its entries, an example, and where it is used.
+"""Writes a page for each section of parameters: the program's description of its entries, an example, and the cases that use the section.
 
-Examples are doc/examples/SECTION.prm, parameter files that the program accepts; their first comment is the text before them.
+The examples are doc/examples/SECTION.prm, parameter files that the program accepts. The comment at the start of such a file is the text before the
+example.
 """
 
 import re
@@ -29,7 +30,7 @@ def slug(section):
 
 
 def sections(program):
-    """{section: {heading: table}}, headings being those of the section and of its subsections."""
+    """The program's tables of entries, as {section: {heading: table}}. There is a heading for the section, and one for each of its subsections."""
     text = subprocess.run([program, "--print-parameters", "markdown"], check=True, capture_output=True, text=True).stdout
     found = {}
     for heading, table in re.findall(r"^## (.*?)\n\n(.*?)\n*(?=^## |\Z)", text, re.DOTALL | re.MULTILINE):
@@ -38,13 +39,13 @@ def sections(program):
 
 
 def example(section):
-    """Its text and its lines."""
+    """The example of a section: the text of its first comment, and the lines of the parameter file after that."""
     comment, lines = re.match(r"((?:#[^\n]*\n)+)\n*(.*)", (EXAMPLES / f"{slug(section)}.prm").read_text(encoding="utf-8"), re.DOTALL).groups()
     return re.sub(r"^# ?", "", comment, flags=re.MULTILINE), lines
 
 
 def users(section):
-    """Ready cases and verification decks that have the section."""
+    """Paths of the ready cases and verification decks that have the section."""
     def uses(path):
         return re.search(rf"^subsection {re.escape(section)}$", path.read_text(encoding="utf-8"), re.MULTILINE)
     parameters = ROOT / "parameters"

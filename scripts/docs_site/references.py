@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The page of references, from doc/references.bib, in pybtex's plain style."""
+"""Writes the page of references from doc/references.bib, in pybtex's plain style."""
 
 import functools
 

@@ -3,9 +3,9 @@
 """Puts the project's pages together for Sphinx: copies in which links lead to pages of the site.
 
 The pages remain plain Markdown. What is changed in the copies:
-- README.md is called index.md, as the site begins with it;
+- README.md is called index.md, since it is the first page of the site;
 - links into the list of parameters lead to the page of the section;
-- keys of references, [chung1993], are links to the page of references;
+- keys of references, as [chung1993], become links to the page of references;
 - other files of the project that pages link to are copied, and can be downloaded.
 """
 
@@ -17,7 +17,7 @@ import shutil
 from .references import keys
 from .tree import BELOW, PARTS, ROOT, WRITTEN, files, toctree
 
-# Sphinx does not know Doxygen's pages: the link is HTML.
+# The link to Doxygen's pages is written in HTML, because Sphinx does not know these pages.
 API = """# Classes and functions
 
 <p><a href="api/index.html">The reference of classes, functions and files</a></p>
@@ -36,13 +36,13 @@ def version():
 
 
 def outside_code(text, change):
-    """The text with change applied to what is no code."""
+    """The text, with the function change applied to all parts that are not code."""
     parts = re.split(r"(^```.*?^```$|^ {4}[^\n]*$|`[^`\n]*`)", text, flags=re.DOTALL | re.MULTILINE)
     return "".join(part if i % 2 else change(part) for i, part in enumerate(parts))
 
 
 def with_references(text, page):
-    """Keys in brackets as links: [key], [key, key], [key, 2.7], [key; key]."""
+    """The text, with keys of references in brackets made links: [key], [key, key], [key, 2.7], [key; key]."""
     target = os.path.relpath("doc/references.md", os.path.dirname(page))
     known = "|".join(keys())
 
@@ -52,7 +52,8 @@ def with_references(text, page):
 
 
 def with_links(text, page, pages):
-    """Links between pages as the site has them. What else is linked to is copied to the same place."""
+    """The text, with links between pages changed to those of the site. Other files that the text links to are copied to the same place in the
+    site."""
     folder = os.path.dirname(page)
 
     def target(match):
@@ -100,7 +101,7 @@ def put_together(pages):
 
 
 def copy_mathjax(folder):
-    """What equations as scalable pictures need of it."""
+    """Copies the parts of MathJax that draw equations as scalable pictures."""
     for pattern in MATHJAX_PARTS:
         for path in MATHJAX.glob(pattern):
             destination = folder / path.relative_to(MATHJAX)

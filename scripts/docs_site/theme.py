@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Two things that Debian's build of the theme Furo lacks.
+"""Mends two things that Debian's build of the theme Furo lacks.
 
-- Its script is two modules of JavaScript, one of which imports the other. Browsers load modules from servers only, not from a folder. Together they are a
-  script like any other: for the choice of light and dark, and for the mark in the contents of a page.
-- Where the reader has chosen neither light nor dark, the system's choice should hold; the rules for that are missing, as a copy of those for dark.
+- The script of the theme is two modules of JavaScript, one of which imports the other. Browsers load modules from servers only, not from a folder. So
+  both modules are put into one plain script, which lets the reader choose light or dark, and marks the current place in the contents of a page.
+- If the reader has chosen neither light nor dark, the system's choice should hold. The style rules for that are missing; they are made as a copy of the
+  rules for dark.
 """
 
 import re

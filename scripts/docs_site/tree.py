@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Which pages the site has, in the order of its contents: the one list to add a page to."""
+"""The list of all pages of the site, in the order of its contents. A new page must be added here, and nowhere else."""
 
 import pathlib
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 
-# Caption of a part of the contents, and its pages. README.md is the page that the site begins with.
+# The parts of the contents: {caption: pages}. README.md is not among them, as it is the first page of the site.
 PARTS = {
     "First steps": ["doc/installation.md", "doc/tutorial.md", "gallery.md"],
     "Use": ["doc/command_line.md", "doc/parameter_files.md", "doc/parameters.md", "doc/meshes.md", "meshes/README.md", "doc/results.md",
@@ -17,10 +17,10 @@ PARTS = {
     "Extend": ["doc/library.md", "CONTRIBUTING.md", "api.md", "CHANGELOG.md"],
 }
 
-# Pages below a page, by their folder.
+# Pages that have pages below them in the contents, each with the folder of these.
 BELOW = {"doc/tutorial.md": "doc/tutorial", "doc/verification.md": "doc/verification", "doc/parameters.md": "doc/parameters"}
 
-# Pages that are not files of the project: who writes them is in this folder. API is a heading before Doxygen's pages.
+# Pages that are not files of the project: the modules in this folder write them. api.md is only a heading before Doxygen's pages.
 WRITTEN = {"gallery.md", "doc/parameters.md", "doc/references.md", "api.md"}
 
 
@@ -34,6 +34,6 @@ def files():
 
 
 def toctree(pages, caption=None):
-    """What tells Sphinx about pages, as text of a page; paths from the top."""
+    """The text that a page needs to list other pages in Sphinx's contents. Paths of pages are relative to the top folder."""
     lines = ["", "```{toctree}", ":hidden:", *([f":caption: {caption}"] if caption else []), "", *(f"/{page}" for page in pages), "```", ""]
     return "\n".join(lines)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The plots of a page: which columns share one, and their numbers, thinned where there are more than a picture can show."""
+"""Chooses the plots of a page, the columns of each, and their numbers. Rows are left out if there are more than a picture can show."""
 
 import dataclasses
 import math
@@ -19,12 +19,12 @@ class Chart:
     unit: str
     x_label: str
     x_unit: str
-    series: list  # {"label", "x", "y"}; x of the chart where it has none
+    series: list  # curves, each {"label", "x", "y"}; a curve without "x" takes that of the chart
     x: list = None
     log: bool = False
     points: bool = False
     n_rows: int = 0  # before thinning
-    is_secondary: bool = False  # in the part that opens
+    is_secondary: bool = False  # whether it is hidden until the reader opens that part of the page
 
 
 def finite(value):
@@ -32,7 +32,8 @@ def finite(value):
 
 
 def thinned_rows(table, names):
-    """Numbers of rows that show all there is to see: the first, the last, and of each of equal parts the least and the largest of each column."""
+    """Numbers of the rows to plot. If there are too many rows, these are the first and the last one, and from each of some equal parts of the table the
+    rows with the smallest and with the largest value of each column."""
     n = len(table[names[0]])
     if n <= MAX_ROWS:
         return range(n)
@@ -60,7 +61,7 @@ def is_flat_zero(table, column):
 
 
 def history_charts(run):
-    """Energies, probes, reactions, iterations; and what else there is."""
+    """The plots of a history: energies, probes, reactions and iterations, and less important ones as secondary plots."""
     table = run.table
     if len(table["time"]) < 3:
         return []
@@ -120,7 +121,7 @@ def study_chart(rows, error, abscissa, label):
 
 
 def study_charts(run):
-    """Errors over the size of cells, unknowns and wall time; over time steps where these are varied."""
+    """The plots of a convergence study: errors over the size of cells, unknowns and wall time, and over the time step if the study varies it."""
     rows = [row for row in study_rows(run) if row["status"] == "done"]
     errors = [name[:-len("_error")] for name in run.table if name.endswith("_error")]
     abscissas = [("h", "h, size of the cells"), ("dofs", "unknowns"), ("wall_time", "wall time")]

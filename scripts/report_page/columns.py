@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Units and names of what history.csv, modes.csv, study.csv and summary.json hold."""
+"""Units and names of the columns of history.csv, modes.csv and study.csv, and of the values in summary.json."""
 
 import re
 
-# By what their names are or end with.
+# Units of columns of history.csv: (regular expression for the name, unit). The first expression that fits counts.
 UNITS = (("(time|dt|(.*_)?time|time_step)", "s"), (".*energy|external_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
          ("momentum_[xyz]", "kg m/s"), ("(internal|.*_reaction)_moment_[xyz]", "N m"), ("(.*_)?reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
          (".*_stress_[xyz][xyz]|.*_von_mises", "Pa"), ("max_displacement|.*_[xyz]", "m"))
-# Of modes.csv, study.csv and summary.json, where they differ from those of history.csv.
+# Units of names in modes.csv, study.csv and summary.json that UNITS does not give, or gives wrongly.
 OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg m²", "total_mass": "kg", "h": "m",
                "peak_memory_bytes": "B", "largest_rotation_difference": "rad"}
 
@@ -25,12 +25,12 @@ NAMES = {
 
 
 def unit(column):
-    """Of a column of history.csv."""
+    """The unit of a column of history.csv; "-" if there is none."""
     return next((name for pattern, name in UNITS if re.fullmatch(pattern, column)), "-")
 
 
 def any_unit(column):
-    """Of a column of any table."""
+    """The unit of a column of any table; "-" if there is none."""
     if column.startswith("effective_mass"):
         return "kg"
     if column.startswith(("mass_share", "residual")) or re.search("_(error|order|reference)(_|$)|_order_in_time$", column):
@@ -41,17 +41,17 @@ def any_unit(column):
 
 
 def name(column):
-    """In words, for people."""
+    """The name of a column in words, for people."""
     return NAMES.get(column) or column.replace("_", " ")
 
 
 def is_of_support(stem):
-    """Whether these are the force or the moment of a single support; `stem` is a name before _x, _y and _z."""
+    """Whether the columns of a vector are the force or the moment of a single support. `stem` is their name without _x, _y and _z."""
     return stem.endswith(("_reaction", "_reaction_moment"))
 
 
 def vectors(columns):
-    """The names before _x, _y and _z of those columns that come in threes, in order."""
+    """Names of the vectors among the columns, without _x, _y and _z, in the order of the columns."""
     columns = list(columns)
     stems = [column[:-2] for column in columns if column.endswith("_x")]
     return [stem for stem in stems if all(f"{stem}_{c}" in columns for c in "xyz")]

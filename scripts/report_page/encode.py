@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The surface and its states as the page holds them: blocks, each deflated and in base64, and a description of what is in them.
+"""Encodes the surface and its states for the page: as blocks, each deflated and in base64, with a description of their content.
 
-Numbers of states have 16 bits, relative to the largest one of their field in the state: an error of 1.5e-5 of that. Each component is a run of
-differences to the node before, modulo 2^16, all low bytes before all high bytes, which deflates best. js/store.js is the other end.
+Numbers of states have 16 bits, relative to the largest number of their field in the state: the error is 1.5e-5 of that. For each component, the
+differences from node to node, modulo 2^16, are stored one after another; all low bytes of a field come before all high bytes, as this deflates best.
+js/store.js decodes the blocks.
 """
 
 import base64
@@ -19,7 +20,7 @@ from .surface import MAX_TRIANGLES, extract
 
 SCALE = 32767
 N_SAMPLES = 4
-FEWEST_STATES = 12  # with less, what is extra is left out first
+FEWEST_STATES = 12  # extra fields are left out before there are fewer states than this
 MARGIN = 0.97
 
 
@@ -28,7 +29,7 @@ def text_of(data):
 
 
 def packed(values):
-    """Bytes of values (components x nodes), and what 1 means."""
+    """Returns the bytes of values (components x nodes), and the unit: the value that the stored number 1 stands for."""
     largest = np.abs(values).max(initial=0)
     unit = largest / SCALE if largest > 0 else 1.0
     whole = np.round(values / unit).astype(np.int16)
@@ -37,7 +38,7 @@ def packed(values):
 
 
 class Encoder:
-    """The surface of a run and those of its states that there is room for."""
+    """Encodes the surface of a run, and as many of its states as there is room for."""
 
     def __init__(self, series, kind, max_triangles=MAX_TRIANGLES):
         self.series, self.kind = series, kind
@@ -54,7 +55,7 @@ class Encoder:
         return len(self.surface.triangles) < self.n_triangles
 
     def geometry(self):
-        """The block that all states share, and its arrays in order: [name, type, count]."""
+        """The block that all states share, and a list of the arrays in it, in order: [name, type, count]."""
         s = self.surface
         arrays = {"rest": s.rest.astype("<f4"), "weights": s.weights().astype("<f4"), "faces": s.faces.astype("<u4"),
                   "vertexFaces": s.vertex_faces.astype("<u4"), "triangles": s.triangles.astype("<u4"), "cellEdges": s.cell_edges.astype("<u4"),
@@ -63,9 +64,9 @@ class Encoder:
         return text_of(b"".join(a.tobytes() for a in arrays.values())), [[name, types[a.dtype.kind], a.size] for name, a in arrays.items()]
 
     def state(self, index):
-        """A block of all fields and what describes it; nothing for a state with numbers that are not finite.
+        """A block with all fields of a state, and its description; None if some numbers of the state are not finite.
 
-        An extra field with such numbers is left out of the page, as a view without it says more than a film without the state."""
+        If such numbers are in an extra field, the field is left out of the page, and not the state: a missing field is the smaller loss."""
         parts, units, ranges = [], [], {}
         for field in list(self.fields):
             values = self.reader(field, index)
@@ -84,7 +85,8 @@ class Encoder:
         return text_of(b"".join(parts)), {"time": float(self.series.times[index]), "index": index, "units": units, "ranges": ranges}
 
     def states(self, room):
-        """Blocks of states, evenly spread among all of them, that take @p room bytes at most; the first and the last are among them."""
+        """As many blocks of states as fit into @p room bytes, with their descriptions. The states are evenly spread; the first and the last are among
+        them."""
         n = len(self.series.times)
         while True:
             samples = [self.state(i) for i in {round(k * (n - 1) / (N_SAMPLES - 1)) for k in range(N_SAMPLES)}]
@@ -107,7 +109,7 @@ class Encoder:
         n = len(self.series.times)
         indices = np.unique(np.round(np.linspace(0, n - 1, wanted)).astype(int)) if wanted > 1 else [n - 1]
         n_fields = None
-        while n_fields != len(self.fields):  # a field that is left out is so in all states
+        while n_fields != len(self.fields):  # if a field was left out of a state, it must be left out of all states
             n_fields = len(self.fields)
             found = [self.state(int(i)) for i in indices]
         self.not_finite = sum(one is None for one in found)
@@ -117,7 +119,7 @@ class Encoder:
         return found
 
     def describe(self, states, arrays):
-        """What the page's scripts need to know, without the blocks."""
+        """The description of surface, fields and states that the page's scripts need, without the blocks."""
         s = self.surface
         return {"degree": s.degree, "nodes": len(s.nodes), "places": len(s.weights()), "nodesOfFace": s.faces.shape[1], "arrays": arrays,
                 "states": states, "isThinned": self.is_thinned,

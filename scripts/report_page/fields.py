@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What the surface can be coloured by, at its nodes. Data of cells become means of the cells of a node, for each region by itself."""
+"""Fields that the surface can be coloured by: their values at its nodes. Data of cells become means over the cells of a node, for each region by
+itself."""
 
 import dataclasses
 
@@ -16,7 +17,7 @@ class Option:
     label: str
     component: int = 0
     signed: bool = False
-    middle: float = 0.0  # of a signed one: what is neither more nor less
+    middle: float = 0.0  # if signed: the value between "more" and "less", at which colours change
 
 
 @dataclasses.dataclass
@@ -26,9 +27,9 @@ class Field:
     components: int
     options: list
     kind: str  # PointData or CellData
-    array: str  # in the file
+    array: str  # its name in the file
     factor: float = 1.0
-    is_extra: bool = False  # left out where the page would be too large
+    is_extra: bool = False  # whether it is left out if the page would be too large
     per_volume: bool = False
 
 
@@ -38,7 +39,7 @@ def vector(name, word, unit, **others):
 
 
 def fields_of(series, kind):
-    """Those that the time series has, in the order in which they are offered."""
+    """The fields that the time series has, in the order in which the page offers them."""
     fields = [vector("displacement", "displacement", "m")]
     if series.has("PointData", "von_mises"):
         fields.append(Field("von_mises", "Pa", 1, [Option("von_mises", "von Mises stress")], "PointData", "von_mises"))
@@ -60,7 +61,7 @@ def fields_of(series, kind):
 
 
 class CellMeans:
-    """Means of the cells of each node of a surface, in the node's region."""
+    """Turns data of cells into values at the nodes of a surface: the mean over the cells of the node that are in its region."""
 
     def __init__(self, series, surface):
         node_of = np.full(len(series.points), -1)
@@ -82,7 +83,7 @@ class CellMeans:
 
 
 class Reader:
-    """Values of fields at the nodes of a surface (components x nodes)."""
+    """Reads the values of a field at the nodes of a surface (components x nodes)."""
 
     def __init__(self, series, surface, volumes):
         self.series, self.surface, self.volumes = series, surface, volumes
@@ -100,5 +101,5 @@ class Reader:
 
 
 def values_of(option, values):
-    """What an option shows of a field's values."""
+    """The numbers that an option shows, from the values of its field: a component, or the length."""
     return np.linalg.norm(values, axis=0) if option.component < 0 else values[option.component]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The time series in solution.vtkhdf, and the quality of its mesh."""
+"""Reads the time series in solution.vtkhdf, and computes the quality of its mesh."""
 
 import h5py
 import numpy as np
@@ -9,11 +9,11 @@ from results import BadPart, check_parts
 
 from .run import ReportError
 
-DEGREES = {4: 1, 10: 2, 20: 3}  # by nodes of a cell
+DEGREES = {4: 1, 10: 2, 20: 3}  # by the number of nodes of a cell
 
 
 class TimeSeries:
-    """What solution.vtkhdf and the files that it refers to hold."""
+    """The content of solution.vtkhdf and of the files that it refers to."""
 
     def __init__(self, folder):
         self.path = folder / "solution.vtkhdf"
@@ -27,14 +27,14 @@ class TimeSeries:
 
     @staticmethod
     def guarded(read, path):
-        """Errors of HDF5 are those of a damaged file."""
+        """Calls read(); errors of HDF5 are reported as a damaged file."""
         try:
             return read()
         except (OSError, KeyError, ValueError, RuntimeError, IndexError) as error:
             raise ReportError(f"{path} is damaged or incomplete: {str(error).splitlines()[0][:200]}") from error
 
     def check_sources(self, folder):
-        """Each file that is there, and each that has a part of the states, must open."""
+        """Raises ReportError unless all files in the folder solution, and all files that have a part of the states, can be opened."""
         for path in sorted((folder / "solution").glob("*.h5")):
             self.guarded(lambda path=path: h5py.File(path, "r", locking=False).close(), path)
         data = self.guarded(lambda: self.file["VTKHDF/PointData/displacement"], self.path)
@@ -66,7 +66,7 @@ class TimeSeries:
         return name in self.offsets[kind]
 
     def values(self, kind, name, state):
-        """Of all nodes (PointData) or cells (CellData) in a state."""
+        """The values of an array in a state, at all nodes (PointData) or of all cells (CellData)."""
         n = len(self.points) if kind == "PointData" else len(self.cells)
 
         def read():
@@ -80,12 +80,12 @@ class TimeSeries:
 
 
 class Quality:
-    """Of the tetrahedra through the vertices of each cell: the smallest dihedral angle [degrees], the aspect ratio (longest edge over 2 sqrt(6)
-    times the radius of the inscribed sphere, 1 for a regular one) and the volume [m^3]."""
+    """The quality of each cell, measured at the straight tetrahedron through its vertices: the smallest dihedral angle [degrees], the aspect
+    ratio (longest edge over 2 sqrt(6) times the radius of the inscribed sphere, 1 for a regular tetrahedron) and the volume [m^3]."""
 
     def __init__(self, points, cells):
         x = points[cells[:, :4]]
-        # Those of faces opposite to each vertex; outward or inward alike.
+        # The faces opposite to each vertex. Their normals all point outwards, or all inwards.
         faces = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
         normals = [np.cross(x[:, b] - x[:, a], x[:, c] - x[:, a]) for a, b, c in faces]
         areas = [np.linalg.norm(normal, axis=1) / 2 for normal in normals]

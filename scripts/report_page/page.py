@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The page as a whole: its parts in order, and the file."""
+"""Puts the parts of the page together, and writes the file."""
 
 import dataclasses
 import json
@@ -39,7 +39,7 @@ OTHER DEALINGS IN THE SOFTWARE."""
 
 
 def fill(template, **values):
-    """Puts values where {{names}} are; each name must have one, and each value a place."""
+    """Replaces each {{name}} in the template by the value of that name. Each name must have a value, and each value a place."""
     found = set(re.findall(r"\{\{(\w+)\}\}", template))
     assert found == set(values), found ^ set(values)
     return re.sub(r"\{\{(\w+)\}\}", lambda match: values[match.group(1)], template)
@@ -50,7 +50,7 @@ def read(name):
 
 
 def scripts():
-    """The page's own scripts as one, in a scope of its own."""
+    """The page's own scripts, joined into one with a scope of its own."""
     text = "\n".join(read(f"js/{name}.js") for name in SCRIPTS)
     return f"(function () {{\n'use strict';\n{text}\n}}());"
 
@@ -63,7 +63,7 @@ def three():
 
 
 def status(run):
-    """What became of the run: a line, or a notice that nobody overlooks."""
+    """The state of the run: a line if it is done, else a notice that nobody overlooks."""
     summary = run.summary
     reached = ""
     if run.kind == "simulation":
@@ -93,7 +93,7 @@ def section(name, title, html):
 
 
 def view_section(run, encoder, states):
-    """The view in three dimensions, and what it leaves out."""
+    """The view in three dimensions, with notes on states, triangles and fields that it leaves out."""
     notes = []
     n = len(encoder.series.times)
     if encoder.is_thinned:
@@ -124,7 +124,7 @@ def view_section(run, encoder, states):
 
 
 def plots_section(all_charts):
-    """Places that js/plot.js fills."""
+    """The section of plots, with empty places that js/plot.js fills."""
     def places(some):
         return '<div class="charts">' + "".join(f'<figure class="chart" data-chart="{chart.name}"></figure>' for chart in some) + "</div>"
 
@@ -158,7 +158,7 @@ def parameters_section(run):
 
 
 def sections_of(run, encoder, states, all_charts):
-    """(id, title, HTML)."""
+    """The sections of the page but the view, in order: (id, title, HTML)."""
     found = []
     if run.kind == "modes":
         found.append(("modes", "Frequencies", tables.modes(run)))
@@ -183,12 +183,12 @@ def sections_of(run, encoder, states, all_charts):
 
 
 def json_text(value):
-    """For a script element."""
+    """The value as JSON that can stand in a script element: < is escaped."""
     return json.dumps(value, allow_nan=False, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def without_nan(value):
-    """Numbers that are not finite become null."""
+    """A copy of the value in which numbers that are not finite are None, which becomes null in JSON."""
     if isinstance(value, dict):
         return {name: without_nan(one) for name, one in value.items()}
     if isinstance(value, list):
@@ -230,7 +230,7 @@ def page(folder):
 
 
 def check_place(out, overwrite):
-    """A page may be written there: nothing of others is lost, unless that is wanted."""
+    """Raises ReportError unless a page may be written at the path. A file that is no page of a run is replaced only if @p overwrite is set."""
     check_folder(out)
     if out.is_dir():
         raise ReportError(f"{out} cannot be written: it is a folder")
@@ -239,11 +239,11 @@ def check_place(out, overwrite):
 
 
 def write_report(folder, out=None, overwrite=False):
-    """Writes the page: the whole of it, or nothing."""
+    """Writes the page as a whole or not at all. Returns its path and its size [byte]."""
     if out:
         check_place(out, overwrite)
     text = page(folder).encode()
-    # That of the folder is one of the files of the run, which these replace.
+    # RUN/report.html is one of the files of the run, and is replaced whatever it is.
     out = out or folder / "report.html"
     check_place(out, overwrite=True)
     handle, name = tempfile.mkstemp(dir=out.parent, prefix=f".{out.name}.")

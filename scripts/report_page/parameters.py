@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Parameters as used, and what differs from the defaults, which the program prints."""
+"""Reads the parameters of a run, and finds those that differ from the defaults, which the program prints."""
 
 import dataclasses
 import json
@@ -10,7 +10,8 @@ import re
 import shutil
 import subprocess
 
-# Where results go is no part of the case; checks have a part of the page to themselves.
+# Entries that are not listed: the place of results is no part of the case, and checks have a section of the page to
+# themselves.
 LEFT_OUT = re.compile("Output/(Directory|Overwrite)|Verification/.*")
 
 
@@ -23,7 +24,7 @@ class Difference:
 
 
 def read_parameters(text):
-    """The entries of a parameter file, "Section/Subsection/Entry": value."""
+    """The entries of a parameter file: {"Section/Subsection/Entry": value}."""
     entries, sections = {}, []
     for line in re.sub(r"\\[ \t]*\n", "", text).splitlines():
         line = line.split("#")[0].strip()
@@ -43,7 +44,8 @@ def read_parameters(text):
 
 
 def find_program():
-    """The corotet that belongs to this script, in a folder of a build or of an installation, or that a shell would start."""
+    """The path of the program corotet: the one of the build or installation that this script belongs to, else the one that a
+    shell would start, or None."""
     here = pathlib.Path(__file__)
     for path in (here.absolute(), here.resolve()):
         for folder in path.parents:
@@ -62,7 +64,7 @@ def flatten(tree, path=""):
 
 
 def read_defaults():
-    """What the program says of each entry; nothing if there is no program."""
+    """The program's description of each entry: {entry: description}; empty if there is no program."""
     program = find_program()
     if program is None:
         return {}
@@ -74,7 +76,7 @@ def read_defaults():
 
 
 def same(a, b):
-    """As texts, or as numbers that are written in another way."""
+    """Whether two values of an entry are the same, as texts or as numbers: 1 and 1.0 are the same."""
     words = [re.findall(r"[^\s,;]+|[,;]", text) for text in (a, b)]
     if len(words[0]) != len(words[1]):
         return False
@@ -89,7 +91,7 @@ def same(a, b):
 
 
 def differences(parameters, defaults):
-    """The entries that are not as by default, in the order of the file."""
+    """The entries whose values are not the defaults, in the order of the file."""
     return [Difference(entry, value, defaults[entry]["default_value"], defaults[entry].get("documentation", ""))
             for entry, value in parameters.items()
             if entry in defaults and not LEFT_OUT.fullmatch(entry) and not same(value, defaults[entry]["default_value"])]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What a folder of results says of its run: its state, tables and log. The time series is in mesh.py."""
+"""Reads a folder of results: the state of its run, tables and log. mesh.py reads the time series."""
 
 import csv
 import dataclasses
@@ -21,7 +21,7 @@ LOG_BYTES = 100_000
 
 
 class ReportError(WrongInput):
-    """The folder or the place of the page is not what is needed."""
+    """The folder of results cannot be used, or the page cannot be written to its place; the message says why."""
 
 
 @dataclasses.dataclass
@@ -64,7 +64,8 @@ def number_or_text(text):
 
 
 def read_table(path):
-    """The columns of a table, with numbers, and texts where there is none. A last row that is being written is left out."""
+    """The columns of a table: {name: values}. Values are numbers, or texts if they are not numbers. A last row that is not
+    yet complete is left out."""
     try:
         names, *rows = list(csv.reader(read_text(path).splitlines())) or [[]]
     except (ValueError, csv.Error) as error:
@@ -77,7 +78,7 @@ def read_table(path):
 
 
 def read_numbers(path):
-    """A table of which all columns are numbers."""
+    """The columns of a table whose values must all be numbers."""
     columns = read_table(path)
     texts = [name for name, values in columns.items() if any(isinstance(value, str) for value in values)]
     if texts:
@@ -98,7 +99,7 @@ def read_summary(path):
 
 
 def check_folder(folder):
-    """Of results, and of a program like this one."""
+    """Raises ReportError unless the folder has results of corotet."""
     if not folder.exists():
         raise ReportError(f"{folder} does not exist")
     if not folder.is_dir():
@@ -111,7 +112,7 @@ def check_folder(folder):
 
 
 def is_in_use(folder):
-    """Whether a run writes there now: it locks the file that marks the folder."""
+    """Whether a run is writing to the folder: a run locks the file .corotet, which marks the folder."""
     try:
         with open(folder / ".corotet", "rb") as file:
             fcntl.flock(file, fcntl.LOCK_SH | fcntl.LOCK_NB)
@@ -158,11 +159,11 @@ def read_run(folder):
 
 
 def warnings_of(log):
-    """Lines of warnings, each once, without that word where it stands alone."""
+    """The warnings in the log, each once, without "warning: " at the start."""
     lines = [line.strip() for line in log.splitlines() if re.match(r"\s*warning\b", line)]
     return list(dict.fromkeys(re.sub(r"^warning: ", "", line) for line in lines))
 
 
 def last_row(run):
-    """The last row of the history by name, as in summary.json."""
+    """The last row of the history, as {name: value}. summary.json has it at the end of a run."""
     return run.summary.get("final") or {name: values[-1] for name, values in run.table.items() if math.isfinite(values[-1])}

@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The surface of a mesh: its faces as patches of the cells' degree, cut into triangles that share vertices where the body is smooth.
+"""The surface of a mesh. Its faces are patches of the degree of the cells. They are cut into triangles, which share vertices where the body is
+smooth.
 
-A point of a face has barycentric coordinates; points with multiples of 1/s are a lattice, numbered by (i, j), the shares of the second and of the
-third corner, i running first. Nodes of a face of degree p are the lattice with s = p.
+Points of a face whose barycentric coordinates are multiples of 1/s form a lattice. They are numbered by (i, j), the shares of the second and of the
+third corner times s, i running first. The nodes of a face of degree p are the lattice with s = p.
 """
 
 import numpy as np
 
 MAX_TRIANGLES = 50_000
-CREASE = 30  # degrees: where normals differ by more, there is an edge of the body
+CREASE = 30  # [degrees]: if the normals of two faces differ by more, the line between them is an edge of the body
 
 # Corners of a tetrahedron's faces, seen from outside in the mathematically positive sense.
 FACES = ((1, 2, 3), (0, 3, 2), (0, 1, 3), (0, 2, 1))
@@ -43,7 +44,7 @@ def nodes_of_faces(degree):
 
 
 def monomials(points, degree):
-    """And their derivatives by the first and the second coordinate."""
+    """Monomials up to the degree at points with two coordinates, and their derivatives by the first and by the second one: points x monomials."""
     x, y = np.asarray(points, float).T
     exponents = lattice(degree)
     value = np.stack([x**i * y**j for i, j in exponents], axis=1)
@@ -53,13 +54,14 @@ def monomials(points, degree):
 
 
 def shape_functions(points, degree):
-    """Values of those of a face's nodes at points with coordinates (share of corner 2, share of corner 3), and both derivatives: points x nodes."""
+    """The shape functions of a face's nodes at points with coordinates (share of corner 2, share of corner 3): values and both derivatives, each
+    points x nodes."""
     inverse = np.linalg.inv(monomials(np.array(lattice(degree)) / degree, degree)[0])
     return [m @ inverse for m in monomials(points, degree)]
 
 
 def outer_faces(cells, degree):
-    """Faces that one cell has alone: their nodes (faces x nodes), and their cells."""
+    """The faces that belong to one cell only: their nodes (faces x nodes), and their cells."""
     corners = np.sort(cells[:, :4][:, FACES].reshape(-1, 3), axis=1)
     n = int(cells.max()) + 1
     pair = corners[:, 0] * n + corners[:, 1]
@@ -74,7 +76,7 @@ def outer_faces(cells, degree):
 
 
 def split_triangles(s):
-    """The triangles of a face that is cut with s parts along each edge, as numbers in the lattice."""
+    """The triangles of a face that is cut into s parts along each edge; vertices are numbers in the lattice."""
     number = {point: k for k, point in enumerate(lattice(s))}
     result = [(number[i, j], number[i + 1, j], number[i, j + 1]) for i, j in lattice(s) if i + j < s]
     result += [(number[i + 1, j], number[i + 1, j + 1], number[i, j + 1]) for i, j in lattice(s) if i + j + 1 < s]
@@ -82,13 +84,13 @@ def split_triangles(s):
 
 
 def lattice_edges(s):
-    """The three edges' points, as numbers in the lattice, from corner to corner."""
+    """The points of each of the three edges from corner to corner, as numbers in the lattice."""
     number = {point: k for k, point in enumerate(lattice(s))}
     return np.array([[number[k, 0] for k in range(s + 1)], [number[s - k, k] for k in range(s + 1)], [number[0, s - k] for k in range(s + 1)]])
 
 
 def edge_normals(points, faces, degree):
-    """Unit normals of each face in the middles of its three edges."""
+    """Unit normals of each face at the midpoints of its three edges."""
     _, d_x, d_y = shape_functions([(0.5, 0), (0.5, 0.5), (0, 0.5)], degree)
     x = points[faces]
     normals = np.cross(np.einsum("en,fni->fei", d_x, x), np.einsum("en,fni->fei", d_y, x))
@@ -97,12 +99,13 @@ def edge_normals(points, faces, degree):
 
 
 class Surface:
-    """Patches with the nodes `faces` (rows), which belong to `regions`, cut with s parts along each edge.
+    """The surface as patches, cut into s parts along each edge. The rows of the argument `faces` are the nodes of the patches, `regions` their
+    regions.
 
-    nodes: numbers in the file of those that are used, a node for each region that it is in; node_regions
-    faces: the patches with nodes numbered so
-    vertex_faces, vertex_places: of each vertex, a patch that it is in and its number in the lattice
-    triangles, cell_edges, outline: vertices of triangles; of the pieces of the cells' edges; of those where the body has an edge
+    nodes, node_regions: the nodes on the surface, as numbers in the file, and their regions; a node in several regions is repeated for each
+    faces: the nodes of the patches, as indices into `nodes`
+    vertex_faces, vertex_places: for each vertex, a patch that it is in, and its number in the lattice of that patch
+    triangles, cell_edges, outline: vertices of the triangles, of pieces of the edges of cells, and of pieces of the edges of the body
     """
 
     def __init__(self, points, faces, regions, degree, s):
@@ -131,8 +134,8 @@ class Surface:
         self.faces = number.reshape(faces.shape)
 
     def pair_edges(self, points, faces, regions):
-        """Of each edge of the surface a face's edge (3 face + edge), the other one (-1: none, or several), and whether the body has an edge there:
-        there is no smooth way across."""
+        """Finds the edges of the surface. Returns for each the edge of a face that it is (3 face + edge), the edge of the other face that it is (-1:
+        none, or several), and whether the body has an edge there, so that the surface is not smooth."""
         corners = faces[:, [0, self.degree, -1]]
         ends = np.sort(np.stack([corners, np.roll(corners, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
         order = np.lexsort(ends.T)
@@ -149,8 +152,8 @@ class Surface:
 
     @staticmethod
     def join(label, ours, theirs, corners, joined):
-        """Points of smooth edges get the label of the other face's: the smallest one, after some rounds."""
-        begin = corners.reshape(-1)  # of edge e of a face, its corner e
+        """Gives points of smooth edges the same label in both faces. Labels are made smaller in rounds until they no longer differ."""
+        begin = corners.reshape(-1)  # the node where each edge begins: edge e of a face begins at its corner e
         reversed_ = begin[joined[0]] != begin[joined[1]]
         theirs = np.where(reversed_[:, None], theirs[:, ::-1], theirs).ravel()
         ours = ours.ravel()
@@ -166,22 +169,22 @@ class Surface:
         return np.stack([edges[:, :-1], edges[:, 1:]], axis=2).reshape(-1, 2)
 
     def weights(self):
-        """Places in the lattice x nodes of a patch."""
+        """Values of the shape functions of a patch at the points of the lattice: points x nodes."""
         return shape_functions(np.array(lattice(self.s)) / self.s, self.degree)[0]
 
     def at_vertices(self, values):
-        """Values of nodes, as the page has them at the vertices."""
+        """Interpolates values from the nodes to the vertices, as the page does."""
         return np.einsum("vn,vn...->v...", self.weights()[self.vertex_places], values[self.faces[self.vertex_faces]])
 
     def area(self):
-        """Of the triangles at rest [m^2]."""
+        """The area of all triangles at rest [m^2]."""
         x = self.at_vertices(self.rest)[self.triangles]
         return np.linalg.norm(np.cross(x[:, 1] - x[:, 0], x[:, 2] - x[:, 0]), axis=1).sum() / 2
 
 
 def roughened(points, triangles):
-    """Points that are off the surface by a little, at random and always the same. Where a surface is flat, fields are not: on a rough one points are
-    taken away everywhere, on a smooth one first of all from flat parts."""
+    """Moves points off the surface by small distances, at random but always the same. VTK's decimation removes points from flat parts first, where
+    fields may still vary; on a rough surface it removes points everywhere."""
     x = points[triangles]
     lengths = np.linalg.norm(x - np.roll(x, -1, axis=1), axis=2)
     shortest = np.full(len(points), np.inf)
@@ -195,7 +198,8 @@ def roughened(points, triangles):
 
 
 def decimated(points, triangles, regions, target):
-    """Fewer triangles among some of the points, region by region: points where regions or holes end stay."""
+    """Thins the triangles, region by region. They keep some of the points; points at the ends of regions and of holes stay. Returns triangles and
+    their regions."""
     found = [decimated_region(points, triangles[regions == region], 1 - target / len(triangles)) for region in np.unique(regions)]
     counts = [len(rows) for rows in found]
     return np.concatenate(found), np.repeat(np.unique(regions), counts)
@@ -230,10 +234,10 @@ def decimated_region(points, triangles, reduction):
 
 
 def extract(points, cells, regions, degree, max_triangles=MAX_TRIANGLES):
-    """The surface of a mesh, and how many triangles it has without thinning (as many as it has, if it is not thinned)."""
+    """The surface of a mesh, thinned if it has too many triangles, and the number of triangles before that."""
     faces, owner = outer_faces(cells, degree)
     regions = regions[owner]
-    # Of curved cells twice as many parts as nodes along an edge, if that is not too much.
+    # Faces of degree 2 and 3 are cut into twice as many parts along an edge as their degree, if these are not too many triangles.
     parts = next((s for s in (2 * degree, degree) if degree > 1 and s * s * len(faces) <= max_triangles), degree)
     n_triangles = parts * parts * len(faces)
     if n_triangles <= max_triangles:

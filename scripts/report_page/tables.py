@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""The page's tables and histograms, in HTML that needs no script."""
+"""Writes the tables and histograms of the page, in HTML that needs no script."""
 
 import math
 
@@ -10,14 +10,14 @@ from . import columns
 from .run import last_row
 from .text import MINUS, count, escape, number, plain, quantity, with_prefix
 
-# Vectors of the whole body in the history.
+# Vectors in the history that belong to the whole body.
 OF_BODY = ("momentum", "angular_momentum", "reaction", "internal_moment")
 COUNTS = ("step", "newton_iterations", "linear_iterations", "inverted_cells", "degenerate_cells", "robust_rotations", "clamped_cells", "parts",
           "rejected_steps")
 
 
 def table(head, rows, caption="", classes=""):
-    """Rows are lists of HTML; the first cell of each is its heading."""
+    """A table in HTML. @p head and each of the rows are lists of HTML; the first cell of a row is its heading."""
     head_html = "".join(f'<th scope="col">{cell}</th>' for cell in head)
     body = "\n".join(f'<tr><th scope="row">{row[0]}</th>' + "".join(f"<td>{cell}</td>" for cell in row[1:]) + "</tr>" for row in rows)
     caption = f"<caption>{caption}</caption>" if caption else ""
@@ -30,7 +30,7 @@ def pairs(rows, caption):
 
 
 def final_state(run):
-    """A table of scalars, and one of vectors with their components side by side."""
+    """Two tables of the last state: one of scalars, and one of vectors with their components side by side."""
     final = last_row(run)
     vectors = columns.vectors(final)
     of_vectors = {f"{stem}_{c}" for stem in vectors for c in "xyz"}
@@ -48,7 +48,7 @@ def final_state(run):
         elif columns.is_of_support(stem):
             known = columns.name(stem)
         else:
-            # A probe, whatever it is called.
+            # All other vectors are displacements of probes, whatever their names are.
             known = f"displacement of {stem}"
         cells = [f'<data value="{v!r}" title="{v!r} {unit}" data-key="final.{escape(stem)}_{c}">{plain(v * factor)}</data>' if v is not None else "–"
                  for v, c in zip(values, "xyz")]
@@ -78,7 +78,7 @@ def size_and_cost(run):
 
 
 def modes(run):
-    """The list of frequencies; a script makes its first column buttons."""
+    """The table of frequencies. Its first column has buttons that show the modes."""
     t = run.table
     rows = []
     for i in range(len(t["mode"])):
@@ -131,7 +131,7 @@ def parameters(differences):
 
 
 def histogram(values, bins, title, note):
-    """Bars in SVG: how many cells have a value in each of the intervals."""
+    """A histogram in SVG: bars show how many cells have a value in each interval."""
     counts, edges = np.histogram(values, bins=bins)
     width, height, bottom = 320, 120, 18
     step = width / len(counts)
@@ -147,7 +147,7 @@ def histogram(values, bins, title, note):
 
 
 def quality(q):
-    """Histograms of angles and aspect ratios."""
+    """Histograms of the angles and aspect ratios of the cells."""
     worst, largest = q.angles.min(), min(q.aspects.max(), 1e6)
     return '<div class="pair">' + histogram(
         q.angles, np.linspace(0, 72, 37), "Smallest dihedral angle of the cells [degrees]",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""Numbers and units as people read them, in HTML. The page's scripts write numbers by the same rules (js/format.js)."""
+"""Writes numbers and units for people, in HTML. The page's scripts write numbers by the same rules (js/format.js)."""
 
 import html
 import math
@@ -31,7 +31,7 @@ def grouped(n):
 
 
 def plain(value, digits=DIGITS):
-    """A number without a unit; powers of ten where others would have many zeros."""
+    """A number without a unit, written with a power of ten if it would have many zeros otherwise."""
     if not isinstance(value, (int, float)) or isinstance(value, bool):
         return escape(value)
     if not math.isfinite(value):
@@ -51,7 +51,8 @@ def plain(value, digits=DIGITS):
 
 
 def number(value, key="", digits=DIGITS):
-    """The same in the element that has all digits for who copies or hovers it; @p key names it."""
+    """A number as by plain(), in an element that also has all its digits, which are shown under the pointer. @p key is the name of the
+    element."""
     if value is None:
         return "–"
     name = f' data-key="{escape(key)}"' if key else ""
@@ -59,7 +60,7 @@ def number(value, key="", digits=DIGITS):
 
 
 def quantity(value, unit, key="", digits=DIGITS):
-    """With its unit, of which the prefix follows from the number."""
+    """A number with its unit. The prefix of the unit follows from the number."""
     if value is None:
         return "–"
     factor, shown = with_prefix(abs(value), unit)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
-"""What was computed, in words, from the parameters: a sentence, and a list of terms with what they are."""
+"""Describes in words, from the parameters, what was computed: in a sentence, and in a list of terms with explanations."""
 
 import pathlib
 import re
@@ -12,7 +12,7 @@ LAWS = {"linear": "linear elasticity", "corotational": "corotational elasticity"
 
 
 def value(text, unit=""):
-    """A number with its unit, or a formula as it was written."""
+    """The value of an entry in HTML: a number with its unit, or a formula as it was written."""
     shown = escape(text)
     try:
         factor, unit = with_prefix(abs(float(text)), unit or "-")
@@ -88,7 +88,7 @@ def material(run):
 
 
 def conditions(run):
-    """Supports, loads, damping, start."""
+    """Describes supports, loads, damping and the initial state."""
     entry = run.entry
 
     def given(*pairs):
@@ -152,7 +152,7 @@ def program(run):
 
 
 def terms(run):
-    """What the list under "Computed" has: (term, HTML)."""
+    """The list under "Computed": (term, HTML)."""
     if not run.parameters:
         return list(program(run))
     return [*body(run), *material(run), *conditions(run), *methods(run), *program(run)]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Colour maps: viridis for what begins at a least value, Moreland's cool to warm for what is more or less than a middle, hues for names.
+// Colour maps: viridis for ordinary values, Moreland's cool to warm for values above and below a middle, and hues for names.
 
 const MAPS = {
   sequential: '440154 48186a 472d7b 424086 3b528b 33638d 2c728e 26828e 21918c 1fa088 28ae80 3fbc73 5ec962 84d44b addc30 d8e219 fde725',
@@ -14,7 +14,7 @@ const BANDS = 10;
 const channels = (hex) => [0, 2, 4].map((i) => parseInt(hex.slice(i, i + 2), 16));
 const TABLES = Object.fromEntries(Object.entries(MAPS).map(([name, text]) => [name, text.split(' ').map(channels)]));
 
-/** The colour at a share of a map. */
+/** The colour of a map at a share, from 0 for its first colour to 1 for its last one. */
 function mapped(name, share) {
   const table = TABLES[name];
   const place = Math.max(0, Math.min(1, share)) * (table.length - 1);
@@ -22,7 +22,8 @@ function mapped(name, share) {
   return [0, 1, 2].map((c) => Math.round(table[below][c] + (place - below) * (table[below + 1][c] - table[below][c])));
 }
 
-/** The colours from low to high, each [r, g, b]: with a middle between them those of more and less, of equal strength at equal distances. */
+/** The colours from low to high, each [r, g, b]. If the middle of a signed option lies between low and high, values at equal distances above
+ * and below it have colours of equal strength. */
 function colourRow(option, low, high, bands) {
   if (option.names) return option.names.map((_, i) => channels(HUES[i % HUES.length]));
   const n = bands ? BANDS : SMOOTH;
@@ -35,12 +36,12 @@ function colourRow(option, low, high, bands) {
   });
 }
 
-/** The row as a background of the page. */
+/** A row of colours as a background in CSS. */
 function gradientOf(row, bands) {
   const css = (rgb) => `rgb(${rgb.join(' ')})`;
   if (!bands) return `linear-gradient(to right, ${row.filter((_, i) => i % 15 === 0).map(css).join(', ')})`;
   return `linear-gradient(to right, ${row.map((rgb, i) => `${css(rgb)} ${100 * i / row.length}% ${100 * (i + 1) / row.length}%`).join(', ')})`;
 }
 
-/** A colour that style.css has given a name. */
+/** The colour that has a name in style.css. */
 const themeColour = (name) => getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What the controls below the view and the keys do; methods of Report.
+// Methods of Report for the controls below the view and for the keys.
 
 const CONTROLS = {
   makeControls() {
@@ -30,7 +30,7 @@ const CONTROLS = {
     for (const [id, object] of [['outline', this.view.outline], ['edges', this.view.edges]]) {
       byId(id).addEventListener('change', () => { object.visible = byId(id).checked; this.view.draw(); });
     }
-    // Edges of thinned triangles are not those of cells.
+    // The edges of a thinned surface are not the edges of cells, so they are not offered.
     byId('edges-label').hidden = this.description.view.isThinned;
     for (const button of document.querySelectorAll('[data-look]')) button.addEventListener('click', () => this.view.orbit.look(button.dataset.look));
     for (const button of document.querySelectorAll('[data-mode]')) button.addEventListener('click', () => this.chooseMode(Number(button.dataset.mode)));
@@ -51,7 +51,7 @@ const CONTROLS = {
     this.fillOwnRange();
   },
 
-  /** The numbers of a range of one's own begin with the whole one. */
+  /** Fills the fields for a range of one's own with the range of all states, to begin with. */
   fillOwnRange() {
     if (this.option.names) return;
     const [low, high] = this.fullRange(this.option.name);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Numbers and units as people read them: the rules of text.py.
+// Writes numbers and units for people, by the rules of text.py.
 
 const MINUS = '\u2212';
 const THIN_SPACE = '\u202f';
@@ -14,7 +14,7 @@ function superscript(exponent) {
   return (exponent < 0 ? '⁻' : '') + digits;
 }
 
-/** A number without a unit; powers of ten where others would have many zeros. */
+/** A number without a unit, written with a power of ten if it would have many zeros otherwise. */
 function plainNumber(value, digits = 4) {
   if (value === null || !Number.isFinite(value)) return '–';
   const size = Math.abs(value);
@@ -30,7 +30,8 @@ function plainNumber(value, digits = 4) {
   return text.replace('-', MINUS);
 }
 
-/** A number with as many decimals, all multiplied by the factor, as tell the sorted values apart to a hundredth. */
+/** The value times the factor, with enough decimals to tell the sorted values, times the factor, apart: to a hundredth of their
+ * smallest distance. */
 function withDecimals(value, values, factor) {
   const gaps = values.slice(1).map((one, k) => factor * (one - values[k])).filter((gap) => gap > 0);
   const gap = gaps.length ? Math.min(...gaps) : Math.abs(factor * value) / 10;
@@ -39,7 +40,7 @@ function withDecimals(value, values, factor) {
   return (factor * value).toFixed(decimals).replace('-', MINUS);
 }
 
-/** How many digits mean something of a number that is known to a resolution: none of one below that. */
+/** The number of meaningful digits of a value that is known to a resolution; 0 if the value is smaller than that. */
 function meaningfulDigits(value, resolution) {
   return Math.abs(value) < resolution ? 0 : Math.min(4, Math.floor(Math.log10(Math.abs(value) / resolution)) + 1);
 }
@@ -53,7 +54,7 @@ function withPrefix(size, unit) {
   return { factor: 1 / found[0], unit: found[1] + unit };
 }
 
-/** With its unit, of which the prefix follows from the number. */
+/** A number with its unit. The prefix of the unit follows from the number. */
 function quantity(value, unit, digits = 4) {
   if (value === null) return '–';
   const scale = withPrefix(Math.abs(value), unit);
@@ -71,13 +72,13 @@ function roundTicks(low, high, n) {
   return Array.from({ length: last - first + 1 }, (_, k) => Number(((first + k) * step).toPrecision(12)));
 }
 
-/** 1, 2 or 5 times a power of ten, not above the value. */
+/** The largest of 1, 2 or 5 times a power of ten that is not above the value. */
 function roundDown(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return Number((power * [5, 2, 1].find((factor) => factor * power <= value * 1.0001)).toPrecision(3));
 }
 
-/** An element with attributes and children, which may be texts. */
+/** Makes an element with attributes and children; these may be texts. */
 function element(name, attributes = {}, ...children) {
   const svg = ['svg', 'line', 'path', 'text', 'circle', 'g', 'rect', 'title'].includes(name);
   const made = svg ? document.createElementNS('http://www.w3.org/2000/svg', name) : document.createElement(name);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A point of the body that was clicked: it is marked, its values stay in sight, and its history is a plot.
+// The point of the body that was clicked: it is marked, its values are shown all the time, and its history is plotted.
 
 class Kept {
-  /** @p chosen(x) is called by a click into the plot. */
+  /** A click into the plot calls @p chosen(x). */
   constructor(place, surface, description, chosen) {
     Object.assign(this, { place, surface, description, chosen });
     this.point = null;
     this.hasHistory = description.kind === 'simulation' && description.view.states.length > 2;
   }
 
-  /** The history of an option at the kept point, over the states of the page. */
+  /** Plots the history of an option at the kept point, over the states of the page. */
   show(states, option) {
     this.place.replaceChildren();
     this.plot = null;

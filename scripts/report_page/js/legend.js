@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What is written over the view: the row of colours with its numbers, the axes, the values under the pointer.
+// The parts that are drawn over the view: the legend, the axes, and the values under the pointer.
 
 /** Fills the legend: the option's name and unit, the colours and the numbers from low to high. */
 function showLegend(place, option, low, high, row, bands) {
@@ -19,7 +19,7 @@ function showLegend(place, option, low, high, row, bands) {
   bar.style.background = gradientOf(row, bands);
   const ticks = element('div', { class: 'ticks' });
   const share = (value) => (high > low ? 100 * (value - low) / (high - low) : 50);
-  // The ends are the true ones, round-off aside; round numbers between, where there is room.
+  // The ticks are the ends, where round-off is shown as 0, and round numbers between them where there is room.
   const shown = (value) => (Math.abs(value) < 1e-6 * Math.max(Math.abs(low), Math.abs(high)) ? 0 : value);
   const between = roundTicks(low, high, 3).filter((value) => share(value) > 22 && share(value) < 78);
   for (const value of high > low ? [low, ...between, high] : [low]) {
@@ -30,7 +30,7 @@ function showLegend(place, option, low, high, row, bands) {
   place.replaceChildren(element('div', {}, option.label + (scale.unit ? ` [${scale.unit}]` : '')), bar, ticks);
 }
 
-/** The three axes as the camera sees them. */
+/** Draws the three axes as the camera sees them. */
 function showAxes(svg, { x, y, z }) {
   const axes = ['x', 'y', 'z'].map((name) => ({ name, right: x[name], up: y[name], near: z[name] }));
   axes.sort((a, b) => a.near - b.near);
@@ -40,7 +40,7 @@ function showAxes(svg, { x, y, z }) {
   ]));
 }
 
-/** Rows of a name and numbers beside the body; no rows: nothing is shown. */
+/** Shows rows, each of a name and numbers, beside the body. Without rows, nothing is shown. */
 function showReadout(place, rows) {
   place.hidden = !rows;
   if (!rows) return;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The page begins.
+// Starts the page.
 
 async function start() {
   const description = JSON.parse(byId('description').textContent);
   const report = new Report(description);
-  // For the console.
+  // The browser's console can use the report by this name.
   window.report = report;
   if (description.view) {
     try {

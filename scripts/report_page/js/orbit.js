@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A camera that goes around a body, z upwards, in parallel projection.
+// A camera that can be turned around a body, with z upwards, in parallel projection.
 
 const LOOKS = {
   slanted: [-62 * Math.PI / 180, 24 * Math.PI / 180],
@@ -11,7 +11,8 @@ const LOOKS = {
 };
 
 class Orbit {
-  /** @p moved is called after each change; @p clicked, with the place in pixels, by a click or tap that was no drag. */
+  /** @p moved is called after each change of the camera; @p clicked is called with the place in pixels after a click or tap that
+   * was no drag. */
   constructor(canvas, camera, moved, clicked) {
     Object.assign(this, { canvas, camera, moved, clicked });
     this.target = new THREE.Vector3();
@@ -25,7 +26,7 @@ class Orbit {
     canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
   }
 
-  /** The box that reset() shows all of, its corners as arrays of three. */
+  /** Sets the box that reset() shows as a whole; its corners are arrays of three numbers. */
   setHome(low, high) {
     const middle = new THREE.Vector3(...low.map((x, c) => (x + high[c]) / 2));
     this.home = { low, high, middle, radius: Math.hypot(...low.map((x, c) => high[c] - x)) / 2 };
@@ -42,7 +43,7 @@ class Orbit {
     this.apply();
   }
 
-  /** Half of the width and of the height that the box has from here. */
+  /** Computes half of the width and of the height of the box, as the camera sees it. */
   frame() {
     const { x, y } = this.axes();
     const sides = this.home.low.map((v, c) => (this.home.high[c] - v) / 2);
@@ -55,14 +56,14 @@ class Orbit {
     if (this.home) this.reset();
   }
 
-  /** Radians to the right and upwards, of the camera. */
+  /** Turns the camera around the body by angles [radians], to the right and upwards. */
   turn(right, up) {
     this.azimuth += right;
     this.elevation = Math.max(-Math.PI / 2, Math.min(Math.PI / 2, this.elevation + up));
     this.apply();
   }
 
-  /** Pixels that the body moves by. */
+  /** Moves the camera so that the body moves by so many pixels. */
   move(right, down) {
     const scale = (this.camera.top - this.camera.bottom) / this.canvas.clientHeight;
     const { x, y } = this.axes();
@@ -70,7 +71,7 @@ class Orbit {
     this.apply();
   }
 
-  /** What is at the place (pixels; none: the middle) stays there. */
+  /** Zooms by a factor. The point of the body at the place (in pixels; by default the middle) stays there. */
   zoomBy(factor, place) {
     const before = this.camera.top;
     this.zoom = Math.max(0.2, Math.min(500, this.zoom * factor));
@@ -81,7 +82,7 @@ class Orbit {
     this.move(-(place.x - box.left - box.width / 2) * share, -(place.y - box.top - box.height / 2) * share);
   }
 
-  /** Unit vectors to the right, upwards and to the camera. */
+  /** Unit vectors x to the right, y upwards and z towards the camera. */
   axes() {
     const [c, s] = [Math.cos(this.azimuth), Math.sin(this.azimuth)];
     const [d, t] = [Math.cos(this.elevation), Math.sin(this.elevation)];
@@ -98,7 +99,7 @@ class Orbit {
     camera.bottom = -half;
     camera.right = half * aspect;
     camera.left = -half * aspect;
-    // Nothing is cut off, however far the body moves.
+    // The range of depth is so long that nothing is cut off, even if the body moves far.
     camera.near = 0;
     camera.far = 2 * reach;
     camera.position.copy(this.target).addScaledVector(z, reach);
@@ -135,7 +136,7 @@ class Orbit {
   }
 
   wheel(event) {
-    // The page scrolls as long as nobody has chosen the view.
+    // The wheel scrolls the page, and does not zoom, until the reader has clicked the view.
     if (document.activeElement !== this.canvas && !event.ctrlKey) return;
     event.preventDefault();
     this.zoomBy(Math.exp(-event.deltaY * (event.deltaMode === 1 ? 0.04 : 0.0015)), { x: event.clientX, y: event.clientY });

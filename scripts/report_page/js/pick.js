@@ -4,8 +4,9 @@
 // The point of the drawn surface that a ray meets first.
 
 /**
- * @p origin and @p direction are arrays of three, @p visible tells whether a place is drawn. Returns the triangle, the shares of its second
- * and third vertex, and whether it is seen from inside; or nothing (Moeller and Trumbore's test for each triangle).
+ * Finds the point by Moeller and Trumbore's test for each triangle. @p origin and @p direction of the ray are arrays of three numbers;
+ * @p visible(x, y, z) tells whether a place is drawn. Returns the triangle, the shares of its second and third vertex in the point, and
+ * whether the triangle is seen from inside; or nothing if the ray meets no triangle.
  */
 function meet(positions, triangles, origin, direction, visible) {
   const [ox, oy, oz] = origin;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Play, stop, step: a slider with n places, which play() runs through in so many seconds, again and again.
+// A slider with buttons to play, to stop and to step. play() runs through the places of the slider in so many seconds, again and again.
 
 const ICONS = { play: 'M4 2.5v11l9-5.5z', stop: 'M3.5 2.5h3v11h-3zM9.5 2.5h3v11h-3z' };
 
 class Player {
-  /** @p places are the slider's places as shares of the whole, from 0 to 1; @p rest is the share that the end stays; @p shown(place) draws one. */
+  /** @p places are times of the slider's places, as shares of the whole from 0 to 1; @p rest is the share of time that play() stays at the end;
+   * @p shown(place) draws a place. */
   constructor({ slider, button, speed }, places, seconds, rest, shown) {
     Object.assign(this, { slider, button, speed, places, seconds, rest, shown });
     slider.max = places.length - 1;

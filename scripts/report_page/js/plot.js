@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// A plot of curves: values under the pointer or the keys' cursor, curves that can be put away, a mark at the view's time.
+// A plot of curves. It shows the values at a cursor, which the pointer or keys move, and a mark at the time of the view. Curves can be hidden.
 
 const PLOT = { height: 230, left: 58, right: 12, top: 10, bottom: 34 };
 
 class Plot {
-  /** @p chart as charts.py makes it; @p chosen(x) is called by a click. */
+  /** @p chart is a chart as charts.py makes it. A click calls @p chosen(x). */
   constructor(figure, chart, chosen) {
     Object.assign(this, { figure, chart, chosen });
     this.series = chart.series.map((one, i) => ({ ...one, x: one.x || chart.x, colour: `var(--series-${i % 6})`, isShown: true }));
@@ -48,7 +48,7 @@ class Plot {
     }), this.at);
   }
 
-  /** Of the last two points of a logarithmic curve: the order of convergence, over the size of cells. */
+  /** The slope between the last two points of a logarithmic curve, as a text. Over the size of cells, it is the order of convergence. */
   slope(one) {
     const n = one.x.length;
     if (!this.chart.log || n < 2) return '';
@@ -78,7 +78,7 @@ class Plot {
     return [...new Set(this.series.filter((one) => one.isShown).flatMap((one) => one.x))].sort((a, b) => a - b);
   }
 
-  /** The cursor goes to the row next to the pointer. */
+  /** Moves the cursor to the abscissa nearest to the pointer. */
   point(pixel) {
     const all = this.abscissas();
     if (!all.length || !this.toX) return;
@@ -99,7 +99,7 @@ class Plot {
     }
   }
 
-  /** A line at what the view shows. */
+  /** Marks the time that the view shows by a line. */
   setMark(x) {
     this.mark = x;
     this.markLine?.remove();
@@ -112,7 +112,7 @@ class Plot {
     return element('line', { class: name, x1, y1, x2, y2 });
   }
 
-  /** From the least to the largest number of the curves that are shown, with a little room. */
+  /** The range of both axes: from the least to the largest number of the curves that are shown, with a little room. */
   findRange() {
     const shown = this.series.filter((one) => one.isShown);
     const wider = ([low, high], v) => (v === null ? [low, high] : [Math.min(low, v), Math.max(high, v)]);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The page: plots, and the view with its controls.
+// The page as a whole: the plots, and the view with its controls.
 
 const PHASES = 72;
-const SEEN_AS_IT_IS = 0.05; // of the body's size: displacements that are seen without magnification
+const SEEN_AS_IT_IS = 0.05; // displacements of this part of the body's size are seen without magnification
 
 const isStill = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-/** All ways to colour, of fields and, if there are several, of regions. */
+/** All options to colour the body: those of the fields, and the regions if there are several. */
 function optionsOf(view, regions) {
   const options = view.fields.flatMap((field) => field.options.map((option) => ({ ...option, field: field.name, unit: field.unit })));
   const ids = [...new Set(regions)].sort((a, b) => a - b);
@@ -30,7 +30,7 @@ class Report {
     }
   }
 
-  /** Reads the data; the state that is shown first before all others. */
+  /** Reads the data. The state that is shown first is read before all others. */
   async load() {
     const { view } = this.description;
     this.surface = new Surface(await readGeometry(view), view);
@@ -52,18 +52,18 @@ class Report {
       if (!this.states[k]) this.states[k] = await readState(view, k);
     }
     byId('loading').remove();
-    // Now the view knows how far the body goes.
+    // Now all states are read: the view is adapted to the places that the body reaches in them.
     this.setWarp(this.warp);
     this.makePlayer();
   }
 
-  /** Of modes: the first one that deforms the body. */
+  /** The index of the first mode that deforms the body. */
   firstElastic() {
     const frequencies = this.description.view.states.map((state) => state.frequency);
     return Math.max(0, frequencies.findIndex((frequency) => frequency > 1e-6 * Math.max(...frequencies)));
   }
 
-  /** Of an option, over all states of the page. */
+  /** The least and the largest value of an option in all states of the page. */
   fullRange(name) {
     const ranges = this.description.view.states.map((state) => state.ranges[name]);
     return [Math.min(...ranges.map((range) => range[0])), Math.max(...ranges.map((range) => range[1]))];
@@ -79,7 +79,8 @@ class Report {
     return largest === 0 || (!this.isModes && largest >= SEEN_AS_IT_IS * this.size()) ? 1 : roundDown(0.1 * this.size() / largest);
   }
 
-  /** The corners of a box that the body at rest is in and, with the warp, in all states that have been read; of modes the shown one. */
+  /** The corners of a box that contains the body at rest and, with displacements multiplied by the warp, in all states that have been read (of modes: in
+   * the mode that is shown). */
   reach() {
     const [low, high] = this.description.view.bounds.map((corner) => [...corner]);
     for (const state of this.isModes ? [this.states[this.state]] : this.states.filter(Boolean)) {
@@ -103,7 +104,7 @@ class Report {
     this.player.go(this.isModes ? PHASES / 4 : this.state);
   }
 
-  /** Draws the state with all that depends on it. */
+  /** Draws the state, and everything on the page that depends on it. */
   show() {
     const state = this.states[this.state];
     this.surface.displace(state, this.warp * (this.isModes ? Math.sin(this.phase) : 1));
@@ -118,7 +119,7 @@ class Report {
     const [low, high] = this.range();
     this.surface.colour(this.values, low, high);
     const bands = byId('bands').checked && !this.option.names;
-    // The row of colours changes with the limits, not with the state.
+    // The row of colours depends on the limits only: it is not made again for each state.
     const key = [this.option.name, low, high, bands].join();
     if (key === this.rowKey) return;
     this.rowKey = key;
@@ -127,7 +128,7 @@ class Report {
     showLegend(byId('legend'), this.option, low, high, row, bands);
   }
 
-  /** What the first and the last colour mean. */
+  /** The values of the first and of the last colour. */
   range() {
     const { option } = this;
     if (option.names) return [-0.5, option.names.length - 0.5];
@@ -149,7 +150,7 @@ class Report {
       byId('now').textContent = `phase ${Math.round(this.phase * 180 / Math.PI)}°`;
       return;
     }
-    // In the unit that suits the whole of the run.
+    // All times have the same unit, one that suits the whole run.
     const times = view.states.map((one) => one.time);
     const scale = withPrefix(Math.max(...times.map(Math.abs)), 's');
     const time = `${withDecimals(state.time, times, scale.factor)}\u00a0${scale.unit}`;
@@ -183,18 +184,18 @@ class Report {
     byId('clip-settings').hidden = axis === null;
     if (axis !== this.clipAxis) {
       this.clipAxis = axis;
-      // What is nearer is cut away first.
+      // At first the part of the body that is nearer to the camera is cut away.
       if (axis !== null) this.isNearBelow = this.view.orbit.axes().z.getComponent(axis) < 0;
     }
     if (axis === null) { this.view.clip(null); return; }
     const [low, high] = this.reach();
     const isOther = byId('clip-flip').getAttribute('aria-pressed') === 'true';
-    // From a little before to a little behind the body: flat ends are on one side.
+    // The plane moves from a little before to a little behind the body, so that at both ends all of the body is on one side.
     const share = -0.002 + 1.004 * Number(byId('clip-place').value) / 1000;
     this.view.clip(axis, low[axis] + (high[axis] - low[axis]) * share, this.isNearBelow !== isOther);
   }
 
-  /** The point that was clicked stays in sight; none, or the same one: no longer. */
+  /** Keeps a point that was clicked: its values are shown all the time. Without a point, none is kept any more. */
   keep(point) {
     this.kept.point = point;
     this.hovered = null;
@@ -203,7 +204,7 @@ class Report {
     this.showPoint();
   }
 
-  /** The largest value of the state. */
+  /** Keeps the point with the largest value of the state. */
   keepLargest() {
     let best = 0;
     for (let v = 1; v < this.values.length; ++v) if (this.values[v] > this.values[best]) best = v;
@@ -211,7 +212,7 @@ class Report {
     this.keep({ triangle: Math.floor(place / 3), second: place % 3 === 1 ? 1 : 0, third: place % 3 === 2 ? 1 : 0 });
   }
 
-  /** What the point under the pointer, else the kept one, has. */
+  /** Shows the values at the point under the pointer, or else at the kept point. */
   showPoint() {
     const { surface, kept } = this;
     this.view.mark(kept.point ? surface.at(kept.point, surface.places, 3) : null);
@@ -230,7 +231,7 @@ class Report {
     showReadout(byId('readout'), rows);
   }
 
-  /** Of the page's readout: a name with a unit, and three numbers in it. */
+  /** A row of the readout for a vector: the name with the unit, and three numbers in that unit. */
   vectorRow(name, numbers, resolution) {
     const scale = withPrefix(Math.max(...numbers.map(Math.abs), resolution), 'm');
     return [`${name} [${scale.unit}]`, ...numbers.map((x) => {

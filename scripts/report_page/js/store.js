@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// What encode.py has put into the page: blocks of bytes, deflated and in base64.
+// Reads the blocks that encode.py has put into the page: bytes, deflated and in base64.
 
 async function bytesOf(id) {
   const place = byId(id);
   const text = atob(place.textContent);
-  // The text is as large as the page: it is not needed twice.
+  // The text is large, and is no longer needed in the page.
   place.remove();
   const packed = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) packed[i] = text.charCodeAt(i);
@@ -14,7 +14,7 @@ async function bytesOf(id) {
   return new Response(stream).arrayBuffer();
 }
 
-/** The arrays that all states share, by name. */
+/** Reads the arrays that all states share: {name: array}. */
 async function readGeometry(view) {
   const types = { Float32Array, Uint32Array, Int32Array };
   const buffer = await bytesOf('geometry');
@@ -27,7 +27,8 @@ async function readGeometry(view) {
   return arrays;
 }
 
-/** The fields of a state by name: {values, components, unit}; values are 16-bit numbers, a run of all nodes for each component. */
+/** Reads the fields of a state: {name: {values, components, unit}}. Values are 16-bit numbers, in multiples of the unit: for each
+ * component the values at all nodes. */
 async function readState(view, k) {
   const bytes = new Uint8Array(await bytesOf(`state-${k}`));
   const n = view.nodes;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The drawn surface of a state: places, normals and values at vertices, from those at the nodes of the patches.
+// The drawn surface of a state. Places and values at the vertices are interpolated from the nodes of the patches.
 
 class Surface {
-  /** @p geometry as readGeometry() returns it, @p description as encode.py writes it. */
+  /** @p geometry is that of readGeometry(), @p description that of encode.py. */
   constructor(geometry, description) {
     Object.assign(this, geometry);
     this.n = description.nodes;
@@ -24,7 +24,8 @@ class Surface {
     this.colours = new Float32Array(2 * this.nVertices).fill(0.5);
   }
 
-  /** For each vertex the nodes that it depends on, and how: those of its patch whose shape function is not zero there. */
+  /** Finds for each vertex the nodes that it depends on, and their weights: the nodes of its patch whose shape functions are not zero at
+   * the vertex. */
   prepareWeights({ places, nodesOfFace }) {
     const ofPlace = Array.from({ length: places }, (_, place) => {
       const all = this.weights.subarray(place * nodesOfFace, (place + 1) * nodesOfFace);
@@ -50,7 +51,7 @@ class Surface {
     }
   }
 
-  /** A component of a state's field at all vertices, added to each stride-th number of @p out. */
+  /** Adds a component of a state's field, times the factor, at all vertices to every stride-th number of @p out, from the offset on. */
   add(field, component, factor, out, offset, stride) {
     const { values, unit } = field;
     const first = component * this.n;
@@ -62,14 +63,14 @@ class Surface {
     }
   }
 
-  /** Moves the vertices to rest + factor u. */
+  /** Moves the vertices to their places at rest plus the factor times the displacement of the state. */
   displace(state, factor) {
     this.places.set(this.restPlaces);
     if (factor !== 0) for (let c = 0; c < 3; ++c) this.add(state.displacement, c, factor, this.places, c, 3);
     this.computeNormals();
   }
 
-  /** The box with these corners gets so large that all nodes are in it at rest + factor u. */
+  /** Enlarges the box with these corners so that it contains all nodes at their places at rest plus the factor times the displacement. */
   extend(low, high, displacement, factor) {
     const { n, rest } = this;
     for (let c = 0; c < 3; ++c) {
@@ -81,7 +82,7 @@ class Surface {
     }
   }
 
-  /** What an option shows at the vertices. */
+  /** The values of an option at the vertices. */
   valuesOf(option, state) {
     const values = new Float32Array(this.nVertices);
     if (option.names) {
@@ -99,13 +100,13 @@ class Surface {
     return values;
   }
 
-  /** Places in the row of colours: 0 for low, 1 for high. */
+  /** Computes the place of each vertex in the row of colours: 0 for the value low, 1 for the value high. */
   colour(values, low, high) {
     const scale = high > low ? 1 / (high - low) : 0;
     for (let v = 0; v < this.nVertices; ++v) this.colours[2 * v] = scale ? Math.max(0, Math.min(1, (values[v] - low) * scale)) : 0.5;
   }
 
-  /** Means of those of the triangles, weighted with their areas. */
+  /** Computes the normals at the vertices: means of the normals of their triangles, weighted with the areas. */
   computeNormals() {
     const { triangles, places, normals } = this;
     normals.fill(0);
@@ -126,14 +127,14 @@ class Surface {
     }
   }
 
-  /** What a point of a triangle, as meet() finds it, has of numbers at vertices (components side by side). */
+  /** Interpolates numbers at the vertices (components side by side) to a point of a triangle, as meet() returns it. */
   at(point, numbers, components) {
     const [a, b, c] = this.triangles.subarray(3 * point.triangle, 3 * point.triangle + 3);
     return Array.from({ length: components }, (_, i) => (1 - point.second - point.third) * numbers[components * a + i]
       + point.second * numbers[components * b + i] + point.third * numbers[components * c + i]);
   }
 
-  /** The same of an option in a state, from the nodes of that triangle alone. */
+  /** The value of an option in a state at such a point, computed from the nodes that the triangle depends on alone. */
   valueAt(point, option, state) {
     if (option.names) return option.indices.get(this.regions[this.nodeList[this.starts[this.triangles[3 * point.triangle]]]]);
     const shares = [1 - point.second - point.third, point.second, point.third];
@@ -148,7 +149,7 @@ class Surface {
     return option.component >= 0 ? found[0] : Math.hypot(...found);
   }
 
-  /** Of the triangles as they are drawn. */
+  /** The area of all triangles as they are drawn. */
   area() {
     let sum = 0;
     const { triangles, places } = this;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// The scene: the surface with its colours, edges, the body at rest, the clip plane. Drawn when something has changed, and not else.
+// The scene: the surface with its colours, edges, the body at rest, the clip plane. It is drawn only when something has changed.
 
 class View {
   /** Throws if the browser has no WebGL. */
@@ -38,13 +38,13 @@ class View {
     };
     geometry.setAttribute('position', attribute(surface.places, 3));
     geometry.setAttribute('normal', attribute(surface.normals, 3));
-    // The value's place in the row of colours: colours between vertices are those of the values between.
+    // A vertex has its place in the row of colours as a texture coordinate, so that between vertices the values are interpolated, and not the colours.
     geometry.setAttribute('uv', attribute(surface.colours, 2));
     geometry.setIndex(new THREE.BufferAttribute(surface.triangles, 1));
     this.material = new THREE.MeshPhongMaterial({ specular: 0x0c0c0c, shininess: 20, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: 1,
       polygonOffsetUnits: 1 });
     this.body = new THREE.Mesh(geometry, this.material);
-    // Bounds would have to be computed for each state.
+    // three.js must not leave out bodies that it takes to be out of sight: the bounds for that would have to be computed for each state.
     this.body.frustumCulled = false;
     this.scene.add(this.body);
   }
@@ -64,7 +64,7 @@ class View {
     const moved = this.body.geometry.getAttribute('position');
     this.edges = this.lines(moved, surface.cellEdges, 0.45);
     this.edges.visible = false;
-    // A body without edges, a ball, shows those of its cells.
+    // A body without edges, such as a ball, is outlined by the edges of its cells.
     const index = surface.outline.length > 0 ? surface.outline : surface.cellEdges;
     this.outline = this.lines(new THREE.BufferAttribute(surface.restPlaces, 3), index, surface.outline.length > 0 ? 0.8 : 0.25);
     this.marker = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial({ size: 9 * this.renderer.getPixelRatio(), sizeAttenuation: false,
@@ -76,7 +76,8 @@ class View {
     this.scene.add(this.marker);
   }
 
-  /** Where the plane cuts the body, as many back as front faces lie behind it: what is left in the stencil is inside. */
+  /** Makes the cap, which fills the cut. In each pixel, the stencil counts back faces less front faces of the clipped body: where the plane is inside
+   * of the body the count is not zero, and there the cap is drawn. */
   makeCap() {
     const counter = (side, operation) => {
       const material = new THREE.MeshBasicMaterial({ side, depthWrite: false, depthTest: false, colorWrite: false, stencilWrite: true,
@@ -97,7 +98,8 @@ class View {
     this.scene.add(this.clipped, this.cap);
   }
 
-  /** Cuts away what is behind @p place on the axis (0, 1, 2), or before it; no axis: nothing. */
+  /** Cuts away the part of the body with larger coordinates than @p place along the axis (0, 1, 2), or with smaller ones if flipped. If the axis is null,
+   * nothing is cut away. */
   clip(axis, place, flipped) {
     const isOn = axis !== null;
     this.clipped.visible = this.cap.visible = isOn;
@@ -113,7 +115,7 @@ class View {
     this.draw();
   }
 
-  /** Colours from low to high; bands have sharp limits. */
+  /** Sets the row of colours from low to high. With @p sharp, colours jump, as for bands and names. */
   setColours(row, sharp) {
     const data = new Uint8Array(row.flatMap((rgb) => [...rgb, 255]));
     this.material.map?.dispose();
@@ -125,7 +127,7 @@ class View {
     this.draw();
   }
 
-  /** What the surface has computed goes to the graphics card. */
+  /** Sends the places, normals and colours that the surface has computed to the graphics card. */
   update() {
     for (const attribute of Object.values(this.body.geometry.attributes)) attribute.needsUpdate = true;
     this.draw();
@@ -160,7 +162,7 @@ class View {
       ? (px, py, pz) => plane.normal.x * px + plane.normal.y * py + plane.normal.z * pz + plane.constant >= 0
       : () => true;
     const found = meet(this.surface.places, this.surface.triangles, origin.toArray(), direction.toArray(), visible);
-    // The cut lies before what is seen from inside: it has no values.
+    // A triangle that is seen from inside lies behind the cap, which has no values.
     return isClipped && found?.isInside ? null : found;
   }
 
