@@ -220,7 +220,9 @@ TEST(Mesh, FromParameters)
       std::chrono::steady_clock::now() - start;
     // Rank 0 reads the mesh for all.
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
-      EXPECT_GT(mesh.read_time(), 0);
+      {
+        EXPECT_GT(mesh.read_time(), 0);
+      }
     EXPECT_LE(mesh.read_time(), whole.count());
     EXPECT_EQ(mesh.triangulation().n_global_active_cells(), 320u);
     EXPECT_NEAR(volume(mesh, 0), 1, 1e-13);
