@@ -49,14 +49,14 @@ namespace corotet
   }
 
   double
-  EffectiveOperator::largest_cause(const Vector &r) const
+  EffectiveOperator::unexplained(const Vector &r, const double cause) const
   {
     if (!surface_operator)
-      return noise->largest_cause(r, nullptr);
+      return noise->unexplained(r, cause, nullptr);
     Vector springs;
     disc.initialize_vector(springs);
     surface_operator->add_diagonal(springs);
-    return noise->largest_cause(r, &springs);
+    return noise->unexplained(r, cause, &springs);
   }
 
   void

@@ -89,11 +89,13 @@ namespace corotet
   }
 
   double
-  ForceRoundOff::largest_cause(const Vector &r, const Vector *springs) const
+  ForceRoundOff::unexplained(const Vector &r,
+                             const double  cause,
+                             const Vector *springs) const
   {
     // Rows of the springs' matrix are some three times their diagonal.
-    constexpr double of_row  = 3;
-    double           largest = 0;
+    constexpr double of_row = 3;
+    double           sum    = 0;
     for (unsigned int n = 0; n < by_displacement.size(); ++n)
       {
         double square = 0, of_springs = 0;
@@ -104,11 +106,11 @@ namespace corotet
               of_springs = std::max(of_springs,
                                     of_row * springs->local_element(3 * n + a));
           }
-        largest =
-          std::max(largest,
-                   square / (by_displacement[n] + of_springs * of_springs));
+        if (square >
+            cause * cause * (by_displacement[n] + of_springs * of_springs))
+          sum += square;
       }
     return std::sqrt(
-      dealii::Utilities::MPI::max(largest, r.get_mpi_communicator()));
+      dealii::Utilities::MPI::sum(sum, r.get_mpi_communicator()));
   }
 } // namespace corotet

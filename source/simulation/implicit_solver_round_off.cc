@@ -60,18 +60,21 @@ namespace corotet
     return lower.distance(upper);
   }
 
-  bool
-  ImplicitSolver::is_round_off_everywhere(const Vector &r)
+  double
+  ImplicitSolver::unexplained_residual(const Vector &r)
   {
     // Round-off of a displacement, and of the rotation of a cell, which is no
     // larger than the body; a number that is never exceeded by it.
-    constexpr double most  = 16 * precision;
-    const double     cause = effective_operator->largest_cause(r);
+    constexpr double most = 16 * precision;
     const double size = equation.displacement().linfty_norm() + size_of_body();
     // Forces of an assembled matrix have round-off that is not in balance: that
     // of stiff parts moves soft ones.
-    const bool result = !linear_solver.is_assembled() && cause <= most * size;
-    hides_parts       = hides_parts || !result;
+    const double result =
+      linear_solver.is_assembled() ?
+        norm(r) :
+        effective_operator->unexplained(r, most * size);
+    hides_parts = hides_parts || result > parameters.residual_tolerance *
+                                            std::max(stage_scale, force_scale);
     return result;
   }
 

@@ -75,9 +75,11 @@ namespace corotet
     if (cannot_improve || report.iterations >= parameters.max_iterations ||
         have_settled())
       return true;
-    if (!is_everywhere)
-      is_everywhere = problem.is_round_off_everywhere(r);
-    return *is_everywhere;
+    if (!unexplained)
+      unexplained = problem.unexplained_residual(r);
+    return *unexplained == 0 ||
+           (*unexplained <= parameters.residual_tolerance * residual.scale &&
+            has_small_error());
   }
 
   bool
@@ -86,8 +88,9 @@ namespace corotet
     if (report.iterations < 2)
       return false;
     const double q = last_increment / increment_before;
-    return q > stalled ||
-           last_increment * q / (1 - q) <= small_error * first_increment;
+    return q > stalled ?
+             report.iterations >= many :
+             last_increment * q / (1 - q) <= small_error * first_increment;
   }
 
   bool
@@ -95,10 +98,7 @@ namespace corotet
   {
     // The last question is the most expensive one.
     return increment_is_round_off ||
-           (has_small_residual() &&
-            (problem.is_linear() ||
-             error <= parameters.increment_tolerance * size)) ||
-           is_round_off();
+           (has_small_residual() && has_small_error()) || is_round_off();
   }
 
   NewtonReport::RoundOff

@@ -55,7 +55,7 @@ namespace corotet
     evaluate()
     {
       residual = problem.residual(r);
-      is_everywhere.reset();
+      unexplained.reset();
     }
 
     /// Whether the residual is no larger than round-off may be in the whole
@@ -65,16 +65,27 @@ namespace corotet
     is_within_round_off() const;
 
     /// Whether iterations have nothing left to gain: the residual is round-off
-    /// all over the body. Where it may be that of stiff parts, which hides the
-    /// forces of soft ones, increments tell (have_settled()).
+    /// in all parts of the body, or what is not has converged. Where it may be
+    /// round-off of stiff parts, which hides the forces of soft ones,
+    /// increments may tell, too (have_settled()).
     bool
     is_round_off();
 
-    /// Whether increments do not become smaller any more, or what they leave is
-    /// small against the first one: at the rate of the last two, du_k and
-    /// du_k-1, this is du_k q / (1 - q) with q = du_k / du_k-1.
+    /// Whether increments do not become smaller any more, after many
+    /// iterations, or what they leave is small against the first one: at the
+    /// rate of the last two, du_k and du_k-1, this is du_k q / (1 - q) with q =
+    /// du_k / du_k-1.
     bool
     have_settled() const;
+
+    /// Whether the estimated error of x is small enough. Linear problems have
+    /// no estimate of their own.
+    bool
+    has_small_error() const
+    {
+      return problem.is_linear() ||
+             error <= parameters.increment_tolerance * size;
+    }
 
     bool
     has_small_residual() const
@@ -135,8 +146,9 @@ namespace corotet
     Vector                 &best_dx;
 
     NewtonProblem::Norm residual = {};
-    /// Whether the residual is round-off everywhere, as far as that was asked.
-    std::optional<bool> is_everywhere;
+    /// What round-off does not explain of the residual, as far as that was
+    /// asked.
+    std::optional<double> unexplained;
     /// Whether there is no direction from a residual within round-off.
     bool cannot_improve = false;
     /// Norms of the first increment, the last one, and the one before it.

@@ -207,7 +207,7 @@ TEST_P(Recovery, FromTheMirrorImage)
                          GetParam(),
                          rotation),
              error);
-      EXPECT_TRUE(std::isfinite(error));
+      EXPECT_LE(error, 10.);
     }
 }
 

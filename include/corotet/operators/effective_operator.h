@@ -145,9 +145,9 @@ namespace corotet
     double
     round_off(const Vector &v) const;
 
-    /// See ForceRoundOff::largest_cause(). Collective.
+    /// See ForceRoundOff::unexplained(). Collective.
     double
-    largest_cause(const Vector &r) const;
+    unexplained(const Vector &r, const double cause) const;
 
     const std::vector<unsigned char> &
     is_prescribed() const

@@ -41,12 +41,15 @@ namespace corotet
       return by_rotations;
     }
 
-    /// The displacements that cause the forces @p r at single nodes [m]: the
-    /// largest of the forces over what of_displacement() has for 1 m and the
+    /// The norm of those forces @p r at single nodes that errors of
+    /// displacements of @p cause [m] do not explain [N]: forces larger than
+    /// what these errors make in the cells, as in of_displacement(), and in the
     /// springs on the surface, if @p springs is their diagonal [N/m] and not
     /// null. Collective.
     double
-    largest_cause(const Vector &r, const Vector *springs) const;
+    unexplained(const Vector &r,
+                const double  cause,
+                const Vector *springs) const;
 
   private:
     /// For each owned node, the sum of the squares of the forces that cells

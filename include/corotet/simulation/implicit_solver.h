@@ -78,8 +78,8 @@ namespace corotet
   private:
     Norm
     residual(Vector &r) override;
-    bool
-    is_round_off_everywhere(const Vector &r) override;
+    double
+    unexplained_residual(const Vector &r) override;
     Norm
     improve_guess(Vector &r, const Norm &at_guess) override;
     unsigned int

@@ -60,13 +60,14 @@ namespace corotet
     virtual Norm
     residual(Vector &r) = 0;
 
-    /// Whether each part of the body by itself has a residual @p r, that of the
-    /// last evaluation, which round-off explains. As a whole it does so: its
-    /// norm is no more than Norm::most_round_off.
-    virtual bool
-    is_round_off_everywhere(const Vector & /*r*/)
+    /// The norm of those entries of @p r, the residual of the last evaluation,
+    /// that are too large for round-off where they are, if each part of the
+    /// body is looked at by itself. As a whole, r is round-off: its norm is no
+    /// more than Norm::most_round_off.
+    virtual double
+    unexplained_residual(const Vector & /*r*/)
     {
-      return true;
+      return 0;
     }
 
     /// Called with the residual @p r and its norm @p at_guess at the guess of
