@@ -69,10 +69,9 @@ namespace corotet
     const double size = equation.displacement().linfty_norm() + size_of_body();
     // Forces of an assembled matrix have round-off that is not in balance: that
     // of stiff parts moves soft ones.
-    const double result =
-      linear_solver.is_assembled() ?
-        norm(r) :
-        effective_operator->unexplained(r, most * size);
+    const double result = linear_solver.is_assembled() ?
+                            norm(r) :
+                            effective_operator->unexplained(r, most * size);
     hides_parts = hides_parts || result > parameters.residual_tolerance *
                                             std::max(stage_scale, force_scale);
     return result;
