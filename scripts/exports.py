@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 """Writes states of a run as files for other programs. A writer gets a Source and a path in a temporary folder. It returns the names of the files that it
-has written there; a file that refers to the others comes last. Needs VTK, PyVista, h5py and NumPy."""
+has written there; a file that refers to the others comes last. Needs VTK, h5py and NumPy, but not PyVista, whose import takes a second."""
 
 import errno
 import io
@@ -11,9 +11,9 @@ import xml.etree.ElementTree as xml
 import h5py
 import matplotlib
 import numpy as np
-import pyvista as pv
-from vtkmodules.util.numpy_support import numpy_to_vtk
-from vtkmodules.vtkCommonCore import vtkStringArray
+from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+from vtkmodules.vtkCommonCore import vtkPoints, vtkStringArray
+from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 from vtkmodules.vtkCommonMisc import vtkErrorCode
 from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
@@ -95,6 +95,27 @@ def folder_of(path):
     return path.with_name(f"{path.stem}_vtu")
 
 
+def vtk_points(points):
+    result = vtkPoints()
+    result.SetData(numpy_to_vtk(np.ascontiguousarray(points), deep=True))
+    return result
+
+
+def vtk_cells(cells):
+    """Cells with equally many nodes each, a row for each cell."""
+    result = vtkCellArray()
+    result.SetData(numpy_to_vtkIdTypeArray(np.arange(0, cells.size + 1, cells.shape[1]), deep=True),
+                   numpy_to_vtkIdTypeArray(cells.ravel().astype(np.int64), deep=True))
+    return result
+
+
+def vtk_triangles(points, triangles):
+    result = vtkPolyData()
+    result.SetPoints(vtk_points(points))
+    result.SetPolys(vtk_cells(triangles))
+    return result
+
+
 def write_vtu(source, path):
     """Writes VTK's files of unstructured grids, with a Lagrange tetrahedron for each cell and points at rest. Several states get a file each, and a .pvd
     with their times."""
@@ -118,8 +139,9 @@ def write_vtu(source, path):
 
 def write_grid(source, state, time, file):
     run = source.run
-    cells = np.insert(run.cells, 0, run.cells.shape[1], axis=1).ravel()
-    grid = pv.UnstructuredGrid(cells, np.full(len(run.cells), LAGRANGE_TETRAHEDRON, np.uint8), run.points)
+    grid = vtkUnstructuredGrid()
+    grid.SetPoints(vtk_points(run.points))
+    grid.SetCells(LAGRANGE_TETRAHEDRON, vtk_cells(run.cells))
     for names, data, read in zip(source.arrays(), (grid.GetPointData(), grid.GetCellData()), (run.point_data, run.cell_data)):
         for name in names:
             array = numpy_to_vtk(np.ascontiguousarray(read(name, state)), deep=True)
@@ -161,7 +183,7 @@ def write_stl(source, path):
         points = source.surface_points(state)
         writer = vtkSTLWriter()
         writer.SetFileName(str(file))
-        writer.SetInputData(pv.PolyData(points.astype(np.float32), np.insert(source.surface.simplices, 0, 3, axis=1).ravel()))
+        writer.SetInputData(vtk_triangles(points.astype(np.float32), source.surface.simplices))
         writer.SetFileTypeToBinary()
         header = numpy_to_vtk(np.frombuffer(MARK.encode().ljust(80), np.uint8), deep=True)
         writer.SetBinaryHeader(header)

@@ -5,7 +5,6 @@
 import dataclasses
 
 import numpy as np
-import pyvista as pv
 
 from fields import choose_field, choose_warp, mean_of_cells, with_prefix
 from lagrange import Surface, inside
@@ -122,6 +121,7 @@ class Pictures:
 
     def clipped(self, body, nodes, values):
         """The part of the body that is behind the plane at rest, with the area of the cut. So all states show the same material."""
+        import pyvista as pv
         normal, point, cut_cells, pieces = self.clip
         of_cells = self.shows_cells()
         shell = pv.PolyData(self.rest, np.insert(body.triangles, 0, 3, axis=1).ravel())

@@ -1,16 +1,17 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Copyright (C) 2026 by the corotet authors
 """Writes the displaced surface as glTF 2.0 in one binary file (.glb): a mesh with colours, the states as morph targets, and an animation of these. Needs
-NumPy and PyVista."""
+NumPy and VTK."""
 
 import json
 import struct
 
 import numpy as np
-import pyvista as pv
+from vtkmodules.util.numpy_support import numpy_to_vtkIdTypeArray, vtk_to_numpy
+from vtkmodules.vtkFiltersCore import vtkPolyDataNormals
 
 from commands import MARK
-from exports import colours_of, numbered
+from exports import colours_of, numbered, vtk_triangles
 
 FLOAT, UNSIGNED = 5126, 5125
 VERTICES, INDICES = 34962, 34963
@@ -57,10 +58,19 @@ class Skin:
             self.triangles = np.arange(len(self.vertices)).reshape(-1, 3)
             self.values = lambda state: source.colour_values(state)
             return
-        mesh = pv.PolyData(surface.at(source.run.points), np.insert(surface.simplices, 0, 3, axis=1).ravel())
-        mesh["vertex"] = np.arange(mesh.n_points)
-        mesh = mesh.compute_normals(cell_normals=False, split_vertices=True, feature_angle=FOLD, consistent_normals=False, non_manifold_traversal=False)
-        self.vertices, self.triangles = np.asarray(mesh["vertex"]), mesh.regular_faces
+        mesh = vtk_triangles(surface.at(source.run.points), surface.simplices)
+        vertices = numpy_to_vtkIdTypeArray(np.arange(mesh.GetNumberOfPoints()), deep=True)
+        vertices.SetName("vertex")
+        mesh.GetPointData().AddArray(vertices)
+        normals = vtkPolyDataNormals()
+        normals.SetInputData(mesh)
+        normals.SetFeatureAngle(FOLD)
+        normals.ConsistencyOff()
+        normals.NonManifoldTraversalOff()
+        normals.Update()
+        mesh = normals.GetOutput()
+        self.vertices = vtk_to_numpy(mesh.GetPointData().GetArray("vertex")).copy()
+        self.triangles = vtk_to_numpy(mesh.GetPolys().GetConnectivityArray()).reshape(-1, 3).copy()
         self.values = lambda state: source.colour_values(state)[self.vertices]
 
     def normals(self, points):

@@ -10,7 +10,6 @@ import matplotlib
 import matplotlib.font_manager
 import matplotlib.ticker
 import numpy as np
-import pyvista as pv
 from PIL import Image, ImageDraw, ImageFont
 
 BLACK, GREY = (30, 30, 30), (120, 120, 120)
@@ -72,6 +71,7 @@ def font(pixels):
 
 def draw_bodies(view, bodies, outline, legend):
     """Draws the bodies, and the outline as lines in space. Returns an image without texts."""
+    import pyvista as pv
     plotter = pv.Plotter(off_screen=True, window_size=view.size, lighting="light kit")
     plotter.set_background("white")
     plotter.enable_anti_aliasing("ssaa")
@@ -93,6 +93,7 @@ def draw_bodies(view, bodies, outline, legend):
 
 
 def add_lines(plotter, points, lines, colour, width, opacity):
+    import pyvista as pv
     mesh = pv.PolyData(points, lines=np.insert(lines, 0, 2, axis=1).ravel())
     plotter.add_mesh(mesh, color=[c / 255 for c in colour], line_width=width, opacity=opacity, lighting=False)
 
