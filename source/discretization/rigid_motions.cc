@@ -172,7 +172,9 @@ namespace corotet
     // An orthonormal basis of the null space of @p rows with n unknowns, as
     // rows.
     std::vector<std::vector<double>>
-    null_space(std::vector<std::vector<double>> &rows, const unsigned int n)
+    null_space(std::vector<std::vector<double>> &rows,
+               const unsigned int                n,
+               const double                      tolerance)
     {
       Equations all(n);
       for (std::vector<double> &row : rows)
@@ -182,8 +184,6 @@ namespace corotet
         for (unsigned int j = i; j < n; ++j)
           A(i, j) = all.R[n * i + j];
       A.compute_svd();
-      const double tolerance =
-        std::sqrt(std::numeric_limits<double>::epsilon());
       std::vector<std::vector<double>> basis;
       for (unsigned int k = 0; k < n; ++k)
         if (A.singular_value(k) <= tolerance)
@@ -238,7 +238,8 @@ namespace corotet
 
   RigidMotions::RigidMotions(const Discretization      &discretization,
                              const PrescribedMotion    &motion,
-                             const std::vector<Spring> &springs)
+                             const std::vector<Spring> &springs,
+                             const double               tolerance)
     : discretization(discretization)
     , motion(motion)
     , parts(discretization)
@@ -276,17 +277,18 @@ namespace corotet
       }
     for (unsigned int c = 0; c < n_clusters; ++c)
       if (clusters[c].size() <= max_cluster_size)
-        solve(clusters[c], rows[c]);
+        solve(clusters[c], rows[c], tolerance);
       else
         complete = false;
   }
 
   void
   RigidMotions::solve(const Cluster                    &cluster,
-                      std::vector<std::vector<double>> &equations)
+                      std::vector<std::vector<double>> &equations,
+                      const double                      tolerance)
   {
     const unsigned int n     = 6 * cluster.size();
-    auto               basis = null_space(equations, n);
+    auto               basis = null_space(equations, n, tolerance);
     reduce_rows(basis, in_order(n), no_pivot);
     // Entries that should be zero but have round-off would make forces in the
     // stiffest springs, so they are set to zero.

@@ -48,15 +48,30 @@ namespace corotet
            (surface_operator ? surface_operator->round_off(v) : 0.);
   }
 
-  double
-  EffectiveOperator::unexplained(const Vector &r, const double cause) const
+  std::vector<double>
+  EffectiveOperator::squares_of_node_stiffness() const
   {
     if (!surface_operator)
-      return noise->unexplained(r, cause, nullptr);
+      return noise->squares_of_stiffness(nullptr);
     Vector springs;
     disc.initialize_vector(springs);
     surface_operator->add_diagonal(springs);
-    return noise->unexplained(r, cause, &springs);
+    return noise->squares_of_stiffness(&springs);
+  }
+
+  double
+  EffectiveOperator::unexplained(const Vector &r, const double cause) const
+  {
+    const std::vector<double> squares = squares_of_node_stiffness();
+    double                    sum     = 0;
+    for (unsigned int n = 0; n < squares.size(); ++n)
+      {
+        const double square = square_at_node(r, n);
+        if (square > cause * cause * squares[n])
+          sum += square;
+      }
+    return std::sqrt(
+      dealii::Utilities::MPI::sum(sum, r.get_mpi_communicator()));
   }
 
   void

@@ -77,40 +77,27 @@ namespace corotet
   {
     double sum = 0;
     for (unsigned int n = 0; n < by_displacement.size(); ++n)
-      {
-        double square = 0;
-        for (unsigned int a = 0; a < 3; ++a)
-          square += u.local_element(3 * n + a) * u.local_element(3 * n + a);
-        sum += square * by_displacement[n];
-      }
+      sum += square_at_node(u, n) * by_displacement[n];
     return displacement_noise * precision *
            std::sqrt(
              dealii::Utilities::MPI::sum(sum, u.get_mpi_communicator()));
   }
 
-  double
-  ForceRoundOff::unexplained(const Vector &r,
-                             const double  cause,
-                             const Vector *springs) const
+  std::vector<double>
+  ForceRoundOff::squares_of_stiffness(const Vector *springs) const
   {
     // Rows of the springs' matrix are some three times their diagonal.
-    constexpr double of_row = 3;
-    double           sum    = 0;
-    for (unsigned int n = 0; n < by_displacement.size(); ++n)
-      {
-        double square = 0, of_springs = 0;
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            square += r.local_element(3 * n + a) * r.local_element(3 * n + a);
-            if (springs != nullptr)
-              of_springs = std::max(of_springs,
-                                    of_row * springs->local_element(3 * n + a));
-          }
-        if (square >
-            cause * cause * (by_displacement[n] + of_springs * of_springs))
-          sum += square;
-      }
-    return std::sqrt(
-      dealii::Utilities::MPI::sum(sum, r.get_mpi_communicator()));
+    constexpr double    of_row = 3;
+    std::vector<double> squares(by_displacement);
+    if (springs != nullptr)
+      for (unsigned int n = 0; n < squares.size(); ++n)
+        {
+          double of_springs = 0;
+          for (unsigned int a = 0; a < 3; ++a)
+            of_springs =
+              std::max(of_springs, of_row * springs->local_element(3 * n + a));
+          squares[n] += of_springs * of_springs;
+        }
+    return squares;
   }
 } // namespace corotet

@@ -31,7 +31,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // The version of the content of checkpoints and its meaning.
-    constexpr int format_version = 6;
+    constexpr int format_version = 7;
 
     class FileDescriptor
     {

@@ -97,9 +97,11 @@ namespace corotet
     if (!is_accurate && taken > smallest_taken)
       {
         ++rejected;
+        take_note_of_shorter_step();
         set_length(factor * taken);
         return false;
       }
+    ++since_change;
     if (!is_accurate)
       ++too_inaccurate;
     largest_size = scale;
@@ -107,10 +109,33 @@ namespace corotet
     // length that was planned. Growth of a few percent is not worth a new
     // preconditioner.
     if (factor < 0.95)
-      set_length(factor * taken);
-    else if (factor > 1.2)
-      set_length(std::max(factor * taken, dt));
+      {
+        take_note_of_shorter_step();
+        set_length(factor * taken);
+      }
+    else if (factor > 1.2 && since_change > pause)
+      {
+        // A length that has held for long is no sign of hunting.
+        if (has_grown || since_change > 4 * pause)
+          pause /= 2;
+        has_grown    = true;
+        since_change = 0;
+        set_length(std::max(factor * taken, dt));
+      }
     return true;
+  }
+
+  void
+  AdaptiveStep::take_note_of_shorter_step()
+  {
+    // Each change of the length disturbs stiff modes, which takes some steps to
+    // decay; meanwhile errors tell little. If a longer step leads to a shorter
+    // one, the next attempt comes later.
+    constexpr unsigned int shortest = 8, longest = 64;
+    if (has_grown)
+      pause = std::clamp(2 * pause, shortest, longest);
+    has_grown    = false;
+    since_change = 0;
   }
 
   bool
@@ -131,6 +156,9 @@ namespace corotet
     if (archive.is_reading())
       set_length(dt);
     archive.transfer("largest_size", largest_size);
+    archive.transfer("since_change", since_change);
+    archive.transfer("pause", pause);
+    archive.transfer("has_grown", has_grown);
     archive.transfer("rejected", rejected);
     archive.transfer("too_inaccurate", too_inaccurate);
   }

@@ -51,6 +51,7 @@ namespace corotet
   ImplicitSolver::make_operators()
   {
     ScopedTimer timer(equation.wall_times.assembly);
+    parts = std::make_unique<PartResiduals>(body.discretization);
     effective_operator =
       std::make_unique<EffectiveOperator>(body.discretization,
                                           body.elasticity,
@@ -76,6 +77,8 @@ namespace corotet
     // Where all forces vanish, residuals are compared with those of the last
     // stage.
     stage_scale = solved_scale;
+    worst_part  = {};
+    parts->start();
     NewtonReport report;
     try
       {
@@ -99,6 +102,7 @@ namespace corotet
     if (statics || parameters.always_log || report.line_searches > 0)
       log.line(fmt::format("t = {:.6g}: {}", stage.time, report.text()));
     report_round_off(report);
+    report_parts(report);
     return {report.iterations,
             report.linear_iterations,
             report.observed_order()};
@@ -158,13 +162,16 @@ namespace corotet
     const auto &forces =
       equation.evaluate(*stage_state, stage.time, stage.load_factor);
     equation.residual(r);
-    const auto sizes =
-      norms<6>({{&r,
-                 &forces.external,
-                 &forces.internal,
-                 forces.damping.size() > 0 ? &forces.damping : nullptr,
-                 equation.is_dynamic ? &forces.inertia : nullptr,
-                 equation.terms.has_elastic() ? &forces.elastic : nullptr}});
+    const std::array<const Vector *, 6> terms{
+      {&r,
+       &forces.external,
+       &forces.internal,
+       forces.damping.size() > 0 ? &forces.damping : nullptr,
+       equation.is_dynamic ? &forces.inertia : nullptr,
+       equation.terms.has_elastic() ? &forces.elastic : nullptr}};
+    const auto sizes = norms<6>(terms);
+    if (parts->are_needed())
+      parts->take({terms.begin() + 1, terms.end()});
     residual_norm  = sizes[0];
     external_force = sizes[1];
     inertia_force  = sizes[4];
@@ -296,11 +303,13 @@ namespace corotet
         const double scale =
           std::max(stage_scale, known > 0 ? known : force_scale);
         // What one solve cannot reach is left to the next one.
+        // A part that is left of a whole that is solved needs all digits.
         const double limit =
-          is_linear() ? std::max({0.9 * parameters.residual_tolerance * scale,
-                                  least_tolerance * norm(r),
-                                  hides_parts ? 0. : 0.9 * force_noise}) :
-                        std::numeric_limits<double>::infinity();
+          is_linear() && worst_part.ratio == 0 ?
+            std::max({0.9 * parameters.residual_tolerance * scale,
+                      least_tolerance * norm(r),
+                      hides_parts ? 0. : 0.9 * force_noise}) :
+            std::numeric_limits<double>::infinity();
         const unsigned int n_builds     = preconditioner_builds();
         const unsigned int n_iterations = linear_solver.solve(
           *effective_operator, dx, r, stage_state->u, J, limit, tolerance);

@@ -77,6 +77,36 @@ namespace corotet
     return result;
   }
 
+  double
+  ImplicitSolver::residual_of_parts(const Vector &r)
+  {
+    if (!parts->are_needed())
+      return 0;
+    worst_part = parts->worst(r,
+                              equation.displacement(),
+                              effective_operator->squares_of_node_stiffness());
+    return worst_part.ratio;
+  }
+
+  void
+  ImplicitSolver::report_parts(const NewtonReport &report)
+  {
+    if (report.unsolved_part == 0 || has_warned_of_parts)
+      return;
+    has_warned_of_parts        = true;
+    const dealii::Point<3> &at = parts->centre(worst_part.part);
+    log.warning(fmt::format(
+      "t = {:.6g}: the part of the mesh around ({:.6g}, {:.6g}, {:.6g}), which "
+      "is not connected with the others, is not solved: its residual is {:.2g} "
+      "of its forces, as those of the others are so much larger. Compute it by "
+      "itself",
+      stage.time,
+      at[0],
+      at[1],
+      at[2],
+      report.unsolved_part));
+  }
+
   void
   ImplicitSolver::warn_of_far_motion()
   {

@@ -56,7 +56,11 @@ namespace corotet
                              std::vector<RigidMotions::Spring>())
         .description();
     if (motions.empty())
-      return;
+      {
+        if (springs)
+          warn_of_weak_springs(the_body, springs->springs(), log);
+        return;
+      }
     const bool is_made = the_body.problem.makes_data();
     const bool has_supports =
       springs || !system.equation().terms.names_of_damping().empty();

@@ -5,7 +5,6 @@
 #include <corotet/base/expression.h>
 #include <corotet/base/mpi.h>
 #include <corotet/base/not_finite.h>
-#include <corotet/discretization/rigid_motions.h>
 #include <corotet/simulation/start_checks.h>
 
 #include <deal.II/base/mpi.h>
@@ -260,5 +259,37 @@ namespace corotet
                          "displacement is prescribed wherever it acts");
     // Values that were noted as not finite at these times belong to no step.
     take_not_finite(body.discretization.communicator());
+  }
+
+  void
+  warn_of_weak_springs(const Body                              &body,
+                       const std::vector<RigidMotions::Spring> &springs,
+                       Log                                     &log)
+  {
+    const auto weak_motions = [&](const auto &all_springs) {
+      return RigidMotions(body.discretization,
+                          body.motion,
+                          all_springs,
+                          RigidMotions::almost_free);
+    };
+    // Springs at the same places in all directions show what is due to the
+    // shape of the body alone, as for rotations about the axis of a thin rod.
+    std::vector<RigidMotions::Spring> in_all_directions;
+    for (const RigidMotions::Spring &spring : springs)
+      for (unsigned int a = 0; a < 3; ++a)
+        {
+          in_all_directions.push_back(spring);
+          in_all_directions.back().direction    = 0;
+          in_all_directions.back().direction[a] = 1;
+        }
+    const RigidMotions weak = weak_motions(springs);
+    if (weak.size() <= weak_motions(in_all_directions).size())
+      return;
+    log.warning(
+      "Supports/Elastic normal: hardly anything resists this: " +
+      weak.description() +
+      ". Springs normal to a curved surface let the body slide along it, up to "
+      "the shape of the cells' faces, on which the result then depends; hold "
+      "the body against this by a support or by Supports/Elastic");
   }
 } // namespace corotet

@@ -146,7 +146,10 @@ namespace corotet
             acceleration_change -= good_state.a;
             const double error = integrator->error_constant() * dt * dt *
                                  body.root_mean_square(acceleration_change);
-            if (adaptive->accept(dt, error, body.root_mean_square(present.u)))
+            const double size =
+              body.size_of_motion(present.u,
+                                  system.equation().terms.has_surface_matrix());
+            if (adaptive->accept(dt, error, size))
               {
                 finish_step(done, to, record);
                 record.rejected_steps = adaptive->n_rejected();

@@ -24,9 +24,10 @@ namespace corotet
     if (!residual.is_finite())
       throw ComputationError("the forces are not finite in Newton iteration "
                              "0");
-    if (residual.is_below(1e-3 * parameters.residual_tolerance))
+    if (residual.is_below(1e-3 * parameters.residual_tolerance) &&
+        have_parts_converged())
       return;
-    if (is_round_off())
+    if (is_round_off() && have_parts_converged())
       {
         report.round_off = round_off_limit();
         return;
@@ -41,12 +42,14 @@ namespace corotet
     best = residual.value;
     while (report.iterations < parameters.max_iterations)
       {
-        iterate();
-        const bool converged = has_converged();
+        const bool has_failed = !try_to_iterate();
+        const bool converged =
+          has_failed || (has_converged() && have_parts_converged());
         if (converged && n_needed == 0)
           n_needed = report.iterations;
         // The last linear solve must have had the full tolerance.
-        if (converged && (tolerance_of_solve == 0 || is_round_off()))
+        if (converged &&
+            (tolerance_of_solve == 0 || has_failed || is_round_off()))
           {
             newton.n_last         = report.line_searches == 0 ? n_needed : 0;
             report.final_residual = residual.relative();
@@ -99,6 +102,37 @@ namespace corotet
     // The last question is the most expensive one.
     return increment_is_round_off ||
            (has_small_residual() && has_small_error()) || is_round_off();
+  }
+
+  bool
+  Newton::Iteration::have_parts_converged()
+  {
+    if (!of_parts)
+      of_parts = problem.residual_of_parts(r);
+    const bool are_ready =
+      *of_parts <= of_parts_over_whole * parameters.residual_tolerance;
+    report.unsolved_part = are_ready ? 0. : *of_parts;
+    if (are_ready)
+      return true;
+    whole_is_ready = report.iterations > 0;
+    n_in_vain      = *of_parts < 0.5 * best_of_parts ? 0 : n_in_vain + 1;
+    best_of_parts  = std::min(best_of_parts, *of_parts);
+    return cannot_improve || n_in_vain >= most_in_vain ||
+           report.iterations >= parameters.max_iterations;
+  }
+
+  double
+  Newton::Iteration::contraction(const double previous, const double increment)
+  {
+    // Increments that do not become smaller belong to a part that has not
+    // converged, whose forces are small beside others.
+    if (report.iterations > 0 && increment > stalled * last_increment &&
+        n_slow < most_slow)
+      {
+        ++n_slow;
+        return 1;
+      }
+    return residual.value / previous;
   }
 
   NewtonReport::RoundOff
@@ -174,6 +208,24 @@ namespace corotet
     return definite;
   }
 
+  bool
+  Newton::Iteration::try_to_iterate()
+  {
+    try
+      {
+        iterate();
+        return true;
+      }
+    catch (const ComputationError &)
+      {
+        if (!whole_is_ready)
+          throw;
+        problem.restore();
+        evaluate();
+        return false;
+      }
+  }
+
   void
   Newton::Iteration::iterate()
   {
@@ -221,7 +273,7 @@ namespace corotet
           n_without_progress = 0;
         else if (n_without_progress == 0 || residual.value >= previous)
           ++n_without_progress;
-        const double theta = residual.value / previous;
+        const double theta = contraction(previous, increment.value);
         error = increment.value * (theta < 0.5 ? theta / (1 - theta) : 1.);
         size  = increment.scale;
         record(increment, 1.);

@@ -47,6 +47,11 @@ namespace corotet
     static constexpr unsigned int many    = 5;
     /// The part of the first increment that is a small error.
     static constexpr double small_error = 1e-6;
+    /// Residuals of single parts may be larger by this factor.
+    static constexpr double of_parts_over_whole = 100;
+    /// Limit of iterations that do not halve the residual of a part, and of
+    /// those in which increments count instead of residuals.
+    static constexpr unsigned int most_in_vain = 3, most_slow = 3;
     /// The ratio of a residual to the best one that counts as divergence.
     static constexpr double divergence = 1e8;
 
@@ -56,6 +61,7 @@ namespace corotet
     {
       residual = problem.residual(r);
       unexplained.reset();
+      of_parts.reset();
     }
 
     /// Whether the residual is no larger than round-off may be in the whole
@@ -93,8 +99,20 @@ namespace corotet
       return residual.is_below(parameters.residual_tolerance);
     }
 
+    /// Whether the body as a whole has converged.
     bool
     has_converged();
+
+    /// Whether each part that is not connected with the others has converged,
+    /// too, or further iterations hardly reduce its residual. To be asked once
+    /// where the whole has converged.
+    bool
+    have_parts_converged();
+
+    /// The contraction of the residual in the last iteration, or 1 if the last
+    /// increment shows that it does not tell the error.
+    double
+    contraction(const double previous, const double increment);
 
     NewtonReport::RoundOff
     round_off_limit();
@@ -121,6 +139,11 @@ namespace corotet
 
     void
     iterate();
+
+    /// The same, but returns false, at the best state, if it fails where the
+    /// whole has converged and some part has not.
+    bool
+    try_to_iterate();
 
     void
     search_from_best(const bool dx_is_known);
@@ -149,6 +172,14 @@ namespace corotet
     /// What round-off does not explain of the residual, as far as that was
     /// asked.
     std::optional<double> unexplained;
+    /// The residual of the worst part, as far as that was asked, and the
+    /// smallest one that iterations have halved.
+    std::optional<double> of_parts;
+    double       best_of_parts  = std::numeric_limits<double>::infinity();
+    unsigned int n_in_vain      = 0;
+    bool         whole_is_ready = false;
+    /// The number of increments that did not become smaller.
+    unsigned int n_slow = 0;
     /// Whether there is no direction from a residual within round-off.
     bool cannot_improve = false;
     /// Norms of the first increment, the last one, and the one before it.

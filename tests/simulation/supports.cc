@@ -11,6 +11,7 @@
 
 #include "../refusal.h"
 #include "complete_run.h"
+#include "two_cubes.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -24,49 +25,6 @@ namespace
   conditions(const std::string &held, const std::string &displacement = "")
   {
     return fixed(held) + displacements(displacement);
-  }
-
-  // The unit cube and a shifted copy, with common vertices where they meet. The
-  // region of the copy is 'second', its boundaries are 'second x-min' and so
-  // on.
-  SerialMesh
-  two_cubes(const dealii::Tensor<1, 3> &shift)
-  {
-    SerialMesh                mesh = box("1, 1, 1", "1, 1, 1");
-    const SerialMesh          one  = mesh;
-    std::vector<unsigned int> numbers;
-    for (const auto &x : one.vertices)
-      {
-        unsigned int n = 0;
-        while (n < one.vertices.size() &&
-               (one.vertices[n] - x - shift).norm() > 1e-10)
-          ++n;
-        if (n == one.vertices.size())
-          {
-            n = mesh.vertices.size();
-            mesh.vertices.push_back(x + shift);
-          }
-        numbers.push_back(n);
-      }
-    constexpr unsigned int other = 50;
-    for (auto cell : one.cells)
-      {
-        for (unsigned int &v : cell.vertices)
-          v = numbers[v];
-        cell.region = other;
-        mesh.cells.push_back(cell);
-      }
-    for (auto face : one.faces)
-      {
-        for (unsigned int &v : face.vertices)
-          v = numbers[v];
-        face.boundary += other;
-        mesh.faces.push_back(face);
-      }
-    mesh.regions.names[other] = "second";
-    for (const auto &[id, name] : one.boundaries.names)
-      mesh.boundaries.names[id + other] = "second " + name;
-    return mesh;
   }
 
   std::string

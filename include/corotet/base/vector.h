@@ -25,6 +25,16 @@ namespace corotet
   inner_product(const std::span<const double> a,
                 const std::span<const double> b);
 
+  /// The square of the length of the vector at owned node @p n.
+  inline double
+  square_at_node(const Vector &v, const unsigned int n)
+  {
+    double square = 0;
+    for (unsigned int a = 0; a < 3; ++a)
+      square += v.local_element(3 * n + a) * v.local_element(3 * n + a);
+    return square;
+  }
+
   /// This rank's share of the inner product of two vectors.
   inline double
   local_inner_product(const Vector &a, const Vector &b)

@@ -40,10 +40,17 @@ namespace corotet
       dealii::Tensor<1, 3> direction;
     };
 
+    /// The tolerance of motions that nothing resists.
+    static constexpr double free = 1.5e-8;
+    /// That of motions that supports hardly resist.
+    static constexpr double almost_free = 0.02;
+
+    /// Motions that violate the equations by less than @p tolerance.
     /// Collective.
     RigidMotions(const Discretization      &discretization,
                  const PrescribedMotion    &motion,
-                 const std::vector<Spring> &springs = {});
+                 const std::vector<Spring> &springs   = {},
+                 const double               tolerance = free);
 
     /// The number of linearly independent motions.
     unsigned int
@@ -82,7 +89,9 @@ namespace corotet
     /// Finds the motions of a cluster from its equations, one per row, which
     /// are overwritten.
     void
-    solve(const Cluster &cluster, std::vector<std::vector<double>> &equations);
+    solve(const Cluster                    &cluster,
+          std::vector<std::vector<double>> &equations,
+          const double                      tolerance);
     /// The linearly independent motions of one part.
     std::vector<Numbers>
     motions_of(const unsigned int part) const;

@@ -145,7 +145,13 @@ namespace corotet
     double
     round_off(const Vector &v) const;
 
-    /// See ForceRoundOff::unexplained(). Collective.
+    /// See ForceRoundOff::squares_of_stiffness(). Collective.
+    std::vector<double>
+    squares_of_node_stiffness() const;
+
+    /// The norm of those forces @p r at single nodes that are larger than what
+    /// errors of displacements of @p cause [m] make in cells and springs [N].
+    /// Collective.
     double
     unexplained(const Vector &r, const double cause) const;
 

@@ -41,15 +41,12 @@ namespace corotet
       return by_rotations;
     }
 
-    /// The norm of those forces @p r at single nodes that errors of
-    /// displacements of @p cause [m] do not explain [N]: forces larger than
-    /// what these errors make in the cells, as in of_displacement(), and in the
-    /// springs on the surface, if @p springs is their diagonal [N/m] and not
-    /// null. Collective.
-    double
-    unexplained(const Vector &r,
-                const double  cause,
-                const Vector *springs) const;
+    /// For each owned node, the square of the force that an error of
+    /// displacements of 1 m makes in the cells, as in of_displacement(), and in
+    /// the springs on the surface, if @p springs is their diagonal [N/m] and
+    /// not null [N^2/m^2].
+    std::vector<double>
+    squares_of_stiffness(const Vector *springs) const;
 
   private:
     /// For each owned node, the sum of the squares of the forces that cells

@@ -84,15 +84,24 @@ namespace corotet
   private:
     void
     set_length(const double wanted);
+    /// Takes note that the length has become shorter.
+    void
+    take_note_of_shorter_step();
 
     const AdaptiveStepParameters &parameters;
     double                        smallest;
     /// The longest step that still counts as a smallest one: times are rounded,
     /// and the last steps before a result are longer by up to 1e-10.
-    double       smallest_taken;
-    double       largest;
-    double       dt;
-    double       largest_size   = 0;
+    double smallest_taken;
+    double largest;
+    double dt;
+    double largest_size = 0;
+    /// Accepted steps since the last change of the length, and the number of
+    /// them that a longer step has to wait for.
+    unsigned int since_change = 0;
+    unsigned int pause        = 0;
+    /// Whether the last change was a longer step.
+    bool         has_grown      = false;
     unsigned int rejected       = 0;
     unsigned int too_inaccurate = 0;
   };

@@ -9,6 +9,7 @@
 #include <corotet/operators/surface_matrix.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/simulation/equation_of_motion.h>
+#include <corotet/simulation/part_residuals.h>
 #include <corotet/solvers/linear_solver.h>
 #include <corotet/solvers/newton.h>
 
@@ -80,6 +81,8 @@ namespace corotet
     residual(Vector &r) override;
     double
     unexplained_residual(const Vector &r) override;
+    double
+    residual_of_parts(const Vector &r) override;
     Norm
     improve_guess(Vector &r, const Norm &at_guess) override;
     unsigned int
@@ -141,6 +144,10 @@ namespace corotet
     /// Logs, once, that round-off has ended Newton's iterations.
     void
     report_round_off(const NewtonReport &report);
+    /// Warns, once, of a part whose equations could not be solved beside those
+    /// of others.
+    void
+    report_parts(const NewtonReport &report);
     /// Logs what the linear solver has decided and, once, why solves are slow,
     /// if this one with @p n_iterations and those before it are.
     void
@@ -189,6 +196,10 @@ namespace corotet
     /// others: then linear solves do not end at the round-off of the whole
     /// body.
     bool hides_parts = false;
+    /// Null before it is needed.
+    std::unique_ptr<PartResiduals> parts;
+    PartResiduals::Worst           worst_part;
+    bool                           has_warned_of_parts = false;
     /// Whether nothing resists the loads: the displacement is so large that its
     /// round-off exceeds them, and is far out of reach.
     bool has_run_away = false;

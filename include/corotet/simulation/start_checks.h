@@ -5,7 +5,10 @@
 #define corotet_simulation_start_checks_h
 
 #include <corotet/base/log.h>
+#include <corotet/discretization/rigid_motions.h>
 #include <corotet/simulation/structural_system.h>
+
+#include <vector>
 
 namespace corotet
 {
@@ -41,6 +44,16 @@ namespace corotet
   warn_of_forces(const EquationOfMotion     &equation,
                  const SimulationParameters &parameters,
                  Log                        &log);
+
+  /**
+   * Warns of motions that @p springs hardly resist because of their directions:
+   * springs normal to a curved surface leave the body free to slide along it,
+   * but for the shape of the cells' faces. Collective.
+   */
+  void
+  warn_of_weak_springs(const Body                              &body,
+                       const std::vector<RigidMotions::Spring> &springs,
+                       Log                                     &log);
 } // namespace corotet
 
 #endif

@@ -70,6 +70,15 @@ namespace corotet
       return 0;
     }
 
+    /// The largest ratio of the residual @p r, that of the last evaluation, to
+    /// the forces, if each part that is not connected with the others is looked
+    /// at by itself, and round-off left out.
+    virtual double
+    residual_of_parts(const Vector & /*r*/)
+    {
+      return 0;
+    }
+
     /// Called with the residual @p r and its norm @p at_guess at the guess of
     /// x: may go to another guess. Leaves the residual there in @p r and
     /// returns its norm.
@@ -145,7 +154,10 @@ namespace corotet
    * It has converged when the residual is below its tolerance and the error
    * that is left in x is below that of the increment (which adds no condition
    * where the problem is linear); or when the residual, or a full increment, is
-   * only round-off, as further increments are no better then.
+   * only round-off, as further increments are no better then. Moreover each
+   * part that is not connected with the others must have a residual of at most
+   * a hundred times the tolerance in terms of its own forces; if iterations do
+   * not achieve that, the report says so.
    *
    * The error is estimated as theta / (1 - theta) |dx|, but at most |dx|, with
    * the last increment dx and the contraction theta of the residual in the last

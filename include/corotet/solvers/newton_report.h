@@ -39,6 +39,9 @@ namespace corotet
     };
 
     RoundOff round_off = RoundOff::none;
+    /// The residual of the worst part in terms of its forces, if iterations
+    /// could not reduce it as far as required; else 0.
+    double unsolved_part = 0;
     /// Relative residual at the end.
     double                       final_residual    = 0;
     unsigned int                 iterations        = 0;

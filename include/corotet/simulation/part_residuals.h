@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_simulation_part_residuals_h
+#define corotet_simulation_part_residuals_h
+
+#include <corotet/discretization/connected_parts.h>
+
+#include <vector>
+
+namespace corotet
+{
+  /**
+   * Residuals of the parts of a body that are not connected with each other,
+   * each in terms of its own forces. Norms over the whole body hide what is
+   * left of the forces on a small or soft part beside a large or stiff one.
+   */
+  class PartResiduals
+  {
+  public:
+    /// Collective.
+    explicit PartResiduals(const Discretization &discretization);
+
+    /// Whether there are several parts. Others members are for this case only.
+    bool
+    are_needed() const
+    {
+      return parts.n_parts > 1;
+    }
+
+    /// Begins a stage.
+    void
+    start()
+    {
+      scales.assign(parts.n_parts, 0.);
+    }
+
+    /// Takes the sizes of the terms whose sum the residual is [N]; null stands
+    /// for a term that is zero. Collective.
+    void
+    take(const std::vector<const Vector *> &terms);
+
+    /// A part, and the ratio of its residual to its forces [-].
+    struct Worst
+    {
+      double       ratio = 0;
+      unsigned int part  = 0;
+    };
+
+    /// The part with the largest ratio. Residuals @p r [N] count at nodes where
+    /// they are too large to be the round-off of the displacement @p u [m]; @p
+    /// squares_of_stiffness are those of ForceRoundOff. Collective.
+    Worst
+    worst(const Vector              &r,
+          const Vector              &u,
+          const std::vector<double> &squares_of_stiffness) const;
+
+    dealii::Point<3>
+    centre(const unsigned int part) const
+    {
+      return parts.centres[part];
+    }
+
+  private:
+    const MPI_Comm       comm;
+    const ConnectedParts parts;
+    /// The largest force term of each part in the last call of take(), and a
+    /// small share of the largest one in this stage [N].
+    std::vector<double> scales, forces;
+  };
+} // namespace corotet
+
+#endif

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Copyright (C) 2026 by the corotet authors
+
+#ifndef corotet_tests_simulation_two_cubes_h
+#define corotet_tests_simulation_two_cubes_h
+
+#include <vector>
+
+#include "../body.h"
+
+namespace corotet::tests
+{
+  /// The unit cube and a shifted copy, with common vertices where they meet.
+  /// The region of the copy is 'second', its boundaries are 'second x-min' and
+  /// so on.
+  inline SerialMesh
+  two_cubes(const dealii::Tensor<1, 3> &shift)
+  {
+    SerialMesh                mesh = box("1, 1, 1", "1, 1, 1");
+    const SerialMesh          one  = mesh;
+    std::vector<unsigned int> numbers;
+    for (const auto &x : one.vertices)
+      {
+        unsigned int n = 0;
+        while (n < one.vertices.size() &&
+               (one.vertices[n] - x - shift).norm() > 1e-10)
+          ++n;
+        if (n == one.vertices.size())
+          {
+            n = mesh.vertices.size();
+            mesh.vertices.push_back(x + shift);
+          }
+        numbers.push_back(n);
+      }
+    constexpr unsigned int other = 50;
+    for (auto cell : one.cells)
+      {
+        for (unsigned int &v : cell.vertices)
+          v = numbers[v];
+        cell.region = other;
+        mesh.cells.push_back(cell);
+      }
+    for (auto face : one.faces)
+      {
+        for (unsigned int &v : face.vertices)
+          v = numbers[v];
+        face.boundary += other;
+        mesh.faces.push_back(face);
+      }
+    mesh.regions.names[other] = "second";
+    for (const auto &[id, name] : one.boundaries.names)
+      mesh.boundaries.names[id + other] = "second " + name;
+    return mesh;
+  }
+} // namespace corotet::tests
+
+#endif
