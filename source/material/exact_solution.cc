@@ -38,7 +38,8 @@ namespace corotet
                       "Boundaries where the exact displacement is prescribed "
                       "if 'Manufacture' is true: 'name, name', 'all' or "
                       "'none'. The others get the tractions of the exact "
-                      "solution.");
+                      "solution, as do faces without a name ('all' are those "
+                      "that have names).");
   }
 
   ExactSolution::ExactSolution(const std::string &text)

@@ -33,6 +33,29 @@ namespace corotet
         mesh.selections.declare_parameters(prm);
       });
     }
+
+
+
+    void
+    declare_initial_conditions(dealii::ParameterHandler &prm,
+                               std::string              &displacement,
+                               std::string              &velocity)
+    {
+      section(prm, "Initial conditions", [&] {
+        prm.add_parameter(
+          "Displacement",
+          displacement,
+          "Displacement at the start [m]: 'x; y; z', expressions "
+          "in x, y, z, t. It must agree with supports and turn "
+          "no cell inside out. Statics: the first guess.");
+        prm.add_parameter(
+          "Velocity",
+          velocity,
+          "Velocity at the start [m/s]: 'x; y; z', expressions "
+          "in x, y, z, t. Where a support prescribes the motion, "
+          "its velocity counts instead.");
+      });
+    }
   } // namespace
 
   SimulationParameters::SimulationParameters()
@@ -101,17 +124,7 @@ namespace corotet
       boundary_conditions.declare_parameters(prm);
     });
     forces.declare_parameters(prm);
-    section(prm, "Initial conditions", [&] {
-      prm.add_parameter("Displacement",
-                        initial_displacement,
-                        "Displacement at the start [m]: 'x; y; z', expressions "
-                        "in x, y, z, t. It must agree with supports and turn "
-                        "no cell inside out. Statics: the first guess.");
-      prm.add_parameter("Velocity",
-                        initial_velocity,
-                        "Velocity at the start [m/s]: 'x; y; z', expressions "
-                        "in x, y, z, t.");
-    });
+    declare_initial_conditions(prm, initial_displacement, initial_velocity);
     section(prm, "Exact solution", [&] {
       exact_solution.declare_parameters(prm);
     });

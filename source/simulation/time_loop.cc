@@ -118,6 +118,31 @@ namespace corotet
   {
     recording               = wanted;
     const double start_time = parameters.start_time;
+    if (const double interval = recording.time_between_results;
+        n_steps == 0 && interval > 0)
+      {
+        // Steps end at results, so they may be shorter and more than planned.
+        const double duration = parameters.end_time - start_time;
+        if (!(duration / interval <= largest_number_of_steps))
+          throw InputError(
+            "Output/Time between results",
+            fmt::format("found {}, which makes {:.4g} steps from t = {} to {}, "
+                        "as steps end at its multiples; allowed: at most {} "
+                        "steps, so at least {:.6g}",
+                        interval,
+                        duration / interval,
+                        start_time,
+                        parameters.end_time,
+                        largest_number_of_steps,
+                        duration / largest_number_of_steps));
+        const double length = adaptive ? adaptive->length() : step_length;
+        if (interval < length)
+          log.line(fmt::format("Steps of at most {:.6g} s, as they end at "
+                               "multiples of 'Output/Time between results'",
+                               interval));
+        n_planned = 0;
+        warn_of_steps(duration / length, length);
+      }
     integrator->reset();
     if (integrator->is_dynamic())
       {

@@ -165,7 +165,8 @@ namespace corotet
             "that is free can swing; allowed is a number above 0");
         step_length = control.safety_factor * stable;
         if (done == 0)
-          log.line(fmt::format("Stable step: {:.6g} s; steps of {:.6g} s",
+          log.line(fmt::format("Stable step: {:.6g} s; steps of at most "
+                               "{:.6g} s",
                                stable,
                                step_length));
         const double n = (1 - done) *
@@ -200,8 +201,18 @@ namespace corotet
   }
 
   void
-  TimeLoop::warn_of_steps(const double n, const double dt)
+  TimeLoop::warn_of_steps(const double n_of_length, const double length)
   {
+    double n = n_of_length, dt = length;
+    // Steps whose length the run chooses also end at results.
+    const double interval = recording.time_between_results;
+    if (n_steps == 0 && interval > 0 && interval < length)
+      {
+        const double left =
+          (1 - done) * (parameters.end_time - parameters.start_time);
+        n += left / interval - left / length;
+        dt = interval;
+      }
     constexpr double many = 1e7;
     if (n_planned == 0)
       n_planned = n;

@@ -72,6 +72,14 @@ namespace corotet
       throw InputError("Convergence study/Reference",
                        "found 'exact solution' for modes; allowed: 'none' or "
                        "'finer run'");
+    if (parameters.reference == StudyReference::finer_run &&
+        parameters.further_refinements == 0 &&
+        (modes || parameters.time_steps.size() < 2))
+      throw InputError("Convergence study/Further refinements",
+                       "found 0: the run of the highest degree on the finest "
+                       "mesh would be compared with itself; allowed: 1 to 3, "
+                       "or 0 with several 'Time steps' of a simulation, whose "
+                       "finer run has a shorter step");
     std::set<std::string> checked;
     for (StudyCase one : cases)
       {

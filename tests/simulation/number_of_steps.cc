@@ -103,6 +103,42 @@ TEST(NumberOfSteps, AdaptiveSteps)
   EXPECT_FALSE(warnings_of_steps(shorter).empty());
 }
 
+// Steps whose length the run chooses, by stability or by their error, end at
+// results: with a shorter time between these, there are as many steps as
+// results. Equal steps do not end there.
+TEST(NumberOfSteps, StepsThatEndAtResults)
+{
+  const auto start = [](CompleteRun &run, const double interval) {
+    run.simulation.start(run.observers, {1, interval});
+  };
+  for (const std::string &text :
+       {cube({{"Type", "central difference"}, {"Time step", 0}}),
+        cube({{"Type", "Newmark"},
+              {"Time step", 1e-3},
+              section("Adaptive step", {{"Enabled", true}})})})
+    {
+      CompleteRun too_many(text), many(text), few(text), none(text);
+      EXPECT_EQ(refusal([&] { start(too_many, 1e-12); }),
+                "Output/Time between results: found 1e-12, which makes 1e+12 "
+                "steps from t = 0 to 1, as steps end at its multiples; "
+                "allowed: at most 4000000000 steps, so at least 2.5e-10");
+      start(many, 0.9e-7);
+      EXPECT_EQ(warnings_of_steps(many),
+                std::vector<std::string>(
+                  {"steps of 9e-08 s: 1.11e+07 of them up to the end time"}));
+      start(few, 2e-7);
+      EXPECT_TRUE(warnings_of_steps(few).empty());
+      EXPECT_NEAR(few.simulation.planned_steps(), 5e6, 1);
+      const double n_planned = none.simulation.planned_steps();
+      start(none, 0.5);
+      EXPECT_EQ(none.simulation.planned_steps(), n_planned);
+      EXPECT_LT(n_planned, 5e6);
+    }
+  CompleteRun equal(cube({{"Time step", 1e-3}}));
+  EXPECT_EQ(refusal([&] { start(equal, 1e-12); }), "nothing was refused");
+  EXPECT_TRUE(warnings_of_steps(equal).empty());
+}
+
 // This holds at other times, too: half of a step of one unit of round-off may
 // be rounded to that step again, which must not go on for ever.
 TEST(NumberOfSteps, RejectedStepsBecomeShorter)
