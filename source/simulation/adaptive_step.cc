@@ -118,9 +118,13 @@ namespace corotet
         // A length that has held for long is no sign of hunting.
         if (has_grown || since_change > 4 * pause)
           pause /= 2;
-        has_grown    = true;
-        since_change = 0;
-        set_length(std::max(factor * taken, dt));
+        // After that, small changes disturb less.
+        constexpr double careful = 1.25;
+        has_grown                = true;
+        since_change             = 0;
+        set_length(
+          std::max((pause > 0 ? std::min(factor, careful) : factor) * taken,
+                   dt));
       }
     return true;
   }

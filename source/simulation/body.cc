@@ -156,7 +156,7 @@ namespace corotet
     std::array<double, 3> mean{};
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
       mean[i % 3] += diagonal.local_element(i) * u.local_element(i);
-    MPI::sum(mean, discretization.communicator(), mean);
+    sum_over_ranks(mean, discretization.communicator());
     double sum = 0;
     for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
       {

@@ -4,6 +4,7 @@
 // Bodies on springs at rest: statics, supports that are sufficient, stiff
 // springs, modes.
 
+#include <corotet/simulation/start_checks.h>
 #include <corotet/solvers/preconditioners.h>
 #include <corotet/time_integration/load_stepping.h>
 
@@ -191,6 +192,39 @@ TEST(ElasticSupports, StiffNormalSpringsDoNotStall)
         report(fmt::format("degree {}, k = {:g}: iterations", degree, k),
                stage.linear_iterations);
       }
+}
+
+// Springs normal to the side of a round disc let it rotate about its axis, but
+// for the corners of its side, of which there are 128. A log with all warnings
+// says so, not if the springs resist in all directions, nor if the disc is
+// square.
+TEST(ElasticSupports, NormalSpringsOnARoundDisc)
+{
+  const auto warns = [](const bool is_round, const std::string &springs) {
+    SerialMesh mesh = box("2, 2, 0.2", "32, 32, 1");
+    for (auto &x : mesh.vertices)
+      {
+        const double a = x[0] - 1, b = x[1] - 1;
+        if (is_round)
+          {
+            x[0] = a * std::sqrt(1 - b * b / 2);
+            x[1] = b * std::sqrt(1 - a * a / 2);
+          }
+      }
+    MovingBody body(mesh,
+                    element_text(1) + springs +
+                      displacements("z-min: free; free; 0"));
+    const auto all = body.system.equation().terms.springs(body.reference, 1.);
+    const std::string before = body.log.counts();
+    warn_of_weak_springs(body, all->springs(), body.log);
+    return body.log.counts() != before;
+  };
+  const std::string sides = "x-min: 1, x-max: 1, y-min: 1, y-max: 1";
+  const std::string in_all_directions =
+    "x-min: 1; 1; 1, x-max: 1; 1; 1, y-min: 1; 1; 1, y-max: 1; 1; 1";
+  EXPECT_TRUE(warns(true, supports("", sides)));
+  EXPECT_FALSE(warns(false, supports("", sides)));
+  EXPECT_FALSE(warns(true, supports(in_all_directions, "")));
 }
 
 // Modes of a bar along z with springs at its lower end satisfy omega tan(omega
