@@ -21,7 +21,7 @@ namespace corotet
     /// Collective.
     explicit PartResiduals(const Discretization &discretization);
 
-    /// Whether there are several parts. Others members are for this case only.
+    /// Whether there are several parts. Other members are for this case only.
     bool
     are_needed() const
     {
@@ -64,8 +64,8 @@ namespace corotet
   private:
     const MPI_Comm       comm;
     const ConnectedParts parts;
-    /// The largest force term of each part in the last call of take(), and a
-    /// small share of the largest one in this stage [N].
+    /// A small share of the largest force term of each part in this stage, and
+    /// the largest one in the last call of take() [N].
     std::vector<double> scales, forces;
   };
 } // namespace corotet
