@@ -26,8 +26,9 @@ namespace corotet
       "Target error",
       target_error,
       "Largest error of the displacement that a step may make, relative to the "
-      "largest displacement so far, both as root mean squares over the body "
-      "[-]. A step with a larger error is repeated with a shorter length. "
+      "largest displacement so far (of a body that nothing holds, without its "
+      "translation), both as root mean squares over the body [-]. A step with a "
+      "larger error is repeated with a shorter length. "
       "(Smaller targets than are allowed could not be told from the errors "
       "that Newton's method and round-off leave.)",
       Double(1e-12, 1));

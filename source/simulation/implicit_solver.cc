@@ -51,7 +51,8 @@ namespace corotet
   ImplicitSolver::make_operators()
   {
     ScopedTimer timer(equation.wall_times.assembly);
-    parts = std::make_unique<PartResiduals>(body.discretization);
+    if (!body.is_one_piece)
+      parts = PartResiduals::of_several(body.discretization);
     effective_operator =
       std::make_unique<EffectiveOperator>(body.discretization,
                                           body.elasticity,
@@ -78,7 +79,8 @@ namespace corotet
     // stage.
     stage_scale = solved_scale;
     worst_part  = {};
-    parts->start();
+    if (parts)
+      parts->start();
     NewtonReport report;
     try
       {
@@ -170,7 +172,7 @@ namespace corotet
        equation.is_dynamic ? &forces.inertia : nullptr,
        equation.terms.has_elastic() ? &forces.elastic : nullptr}};
     const auto sizes = norms<6>(terms);
-    if (parts->are_needed())
+    if (parts)
       parts->take({terms.begin() + 1, terms.end()});
     residual_norm  = sizes[0];
     external_force = sizes[1];

@@ -80,7 +80,7 @@ namespace corotet
   double
   ImplicitSolver::residual_of_parts(const Vector &r)
   {
-    if (!parts->are_needed())
+    if (!parts)
       return 0;
     worst_part = parts->worst(r,
                               equation.displacement(),

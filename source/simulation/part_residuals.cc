@@ -19,6 +19,15 @@ namespace corotet
     start();
   }
 
+  std::unique_ptr<PartResiduals>
+  PartResiduals::of_several(const Discretization &discretization)
+  {
+    std::unique_ptr<PartResiduals> result(new PartResiduals(discretization));
+    if (result->parts.n_parts == 1)
+      result.reset();
+    return result;
+  }
+
   void
   PartResiduals::take(const std::vector<const Vector *> &terms)
   {

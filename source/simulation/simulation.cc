@@ -49,12 +49,12 @@ namespace corotet
     // The springs at the first time that is solved for.
     const auto springs =
       system.equation().terms.springs(the_body.reference, stepper.first_time());
-    const std::string motions =
-      RigidMotions(the_body.discretization,
-                   the_body.motion,
-                   springs ? springs->springs() :
-                             std::vector<RigidMotions::Spring>())
-        .description();
+    const RigidMotions free(the_body.discretization,
+                            the_body.motion,
+                            springs ? springs->springs() :
+                                      std::vector<RigidMotions::Spring>());
+    the_body.is_one_piece     = free.n_parts() == 1;
+    const std::string motions = free.description();
     if (motions.empty())
       {
         if (springs)

@@ -52,6 +52,13 @@ namespace corotet
                  const std::vector<Spring> &springs   = {},
                  const double               tolerance = free);
 
+    /// The number of ConnectedParts.
+    unsigned int
+    n_parts() const
+    {
+      return parts.n_parts;
+    }
+
     /// The number of linearly independent motions.
     unsigned int
     size() const

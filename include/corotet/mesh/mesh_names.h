@@ -38,7 +38,7 @@ namespace corotet
     std::map<std::string, std::vector<unsigned int>> sets;
     /// For an id in @p names that has been split, all ids that its members have
     /// now (ascending): the meaning of its number.
-    std::map<unsigned int, std::vector<unsigned int>> parts;
+    std::map<unsigned int, std::vector<unsigned int>> parts = {};
 
     /// The ids that @p name means; none if nothing has this name.
     std::vector<unsigned int>

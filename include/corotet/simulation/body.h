@@ -110,6 +110,10 @@ namespace corotet
     Elasticity                                      elasticity;
     const PrescribedMotion                          motion;
 
+    /// Whether all its cells are known to be connected, so that nobody need
+    /// look for its parts.
+    bool is_one_piece = false;
+
   private:
     Body(const SimulationParameters  &parameters,
          const TableFunctions        &tables,

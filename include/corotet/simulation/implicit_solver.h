@@ -196,7 +196,7 @@ namespace corotet
     /// others: then linear solves do not end at the round-off of the whole
     /// body.
     bool hides_parts = false;
-    /// Null before it is needed.
+    /// Null if there is one part only.
     std::unique_ptr<PartResiduals> parts;
     PartResiduals::Worst           worst_part;
     bool                           has_warned_of_parts = false;

@@ -6,6 +6,7 @@
 
 #include <corotet/discretization/connected_parts.h>
 
+#include <memory>
 #include <vector>
 
 namespace corotet
@@ -18,15 +19,9 @@ namespace corotet
   class PartResiduals
   {
   public:
-    /// Collective.
-    explicit PartResiduals(const Discretization &discretization);
-
-    /// Whether there are several parts. Other members are for this case only.
-    bool
-    are_needed() const
-    {
-      return parts.n_parts > 1;
-    }
+    /// An object for a mesh of several parts; null if it has one. Collective.
+    static std::unique_ptr<PartResiduals>
+    of_several(const Discretization &discretization);
 
     /// Begins a stage.
     void
@@ -62,6 +57,9 @@ namespace corotet
     }
 
   private:
+    /// Collective.
+    explicit PartResiduals(const Discretization &discretization);
+
     const MPI_Comm       comm;
     const ConnectedParts parts;
     /// A small share of the largest force term of each part in this stage, and
