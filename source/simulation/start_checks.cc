@@ -269,7 +269,7 @@ namespace corotet
       return RigidMotions(body.discretization,
                           body.motion,
                           all_springs,
-                          RigidMotions::almost_free);
+                          RigidMotions::weak_tolerance);
     };
     // Springs at the same places in all directions show what is due to the
     // shape of the body alone, as for rotations about the axis of a thin rod.

@@ -41,16 +41,16 @@ namespace corotet
     };
 
     /// The tolerance of motions that nothing resists.
-    static constexpr double free = 1.5e-8;
+    static constexpr double free_tolerance = 1.5e-8;
     /// That of motions that supports hardly resist.
-    static constexpr double almost_free = 0.02;
+    static constexpr double weak_tolerance = 0.02;
 
     /// Motions that violate the equations by less than @p tolerance.
     /// Collective.
     RigidMotions(const Discretization      &discretization,
                  const PrescribedMotion    &motion,
                  const std::vector<Spring> &springs   = {},
-                 const double               tolerance = free);
+                 const double               tolerance = free_tolerance);
 
     /// The number of ConnectedParts.
     unsigned int
