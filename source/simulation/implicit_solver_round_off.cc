@@ -63,15 +63,13 @@ namespace corotet
   double
   ImplicitSolver::unexplained_residual(const Vector &r)
   {
-    // Round-off of a displacement, and of the rotation of a cell, which is no
-    // larger than the body; a number that is never exceeded by it.
-    constexpr double most = 16 * precision;
     const double size = equation.displacement().linfty_norm() + size_of_body();
     // Forces of an assembled matrix have round-off that is not in balance: that
     // of stiff parts moves soft ones.
     const double result = linear_solver.is_assembled() ?
                             norm(r) :
-                            effective_operator->unexplained(r, most * size);
+                            effective_operator->unexplained(
+                              r, ForceRoundOff::error_of_displacements(size));
     hides_parts = hides_parts || result > parameters.residual_tolerance *
                                             std::max(stage_scale, force_scale);
     return result;

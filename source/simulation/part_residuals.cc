@@ -2,13 +2,13 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/vector.h>
+#include <corotet/operators/force_round_off.h>
 #include <corotet/simulation/part_residuals.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace corotet
 {
@@ -59,9 +59,6 @@ namespace corotet
                        const Vector              &u,
                        const std::vector<double> &squares_of_stiffness) const
   {
-    // Round-off of a displacement, and of the rotation of a cell, which is no
-    // larger than the part; a number that is never exceeded by it.
-    constexpr double    most = 16 * std::numeric_limits<double>::epsilon();
     std::vector<double> displacements(parts.n_parts);
     for (unsigned int n = 0; n < parts.part_of_node.size(); ++n)
       {
@@ -72,9 +69,9 @@ namespace corotet
     std::vector<double> squares(parts.n_parts);
     for (unsigned int n = 0; n < parts.part_of_node.size(); ++n)
       {
-        const unsigned int p = parts.part_of_node[n];
-        const double       cause =
-          most * (std::sqrt(displacements[p]) + 2 * parts.radii[p]);
+        const unsigned int p     = parts.part_of_node[n];
+        const double       cause = ForceRoundOff::error_of_displacements(
+          std::sqrt(displacements[p]) + 2 * parts.radii[p]);
         const double square = square_at_node(r, n);
         if (square > cause * cause * squares_of_stiffness[n])
           squares[p] += square;

@@ -33,8 +33,10 @@ namespace corotet
     , stepper(parameters, system, log)
   {
     the_body.describe(log);
-    warn_of_body(the_body, parameters, log);
-    if (!parameters.time_integrator.selected().is_dynamic())
+    warn_of_body(the_body, log);
+    if (parameters.time_integrator.selected().is_dynamic())
+      look_for_parts();
+    else
       check_supports();
     check_start(system, parameters, stepper.state(), log);
     warn_of_forces(system.equation(), parameters, log);
@@ -44,17 +46,27 @@ namespace corotet
   }
 
   void
+  Simulation::look_for_parts()
+  {
+    const std::string parts = unconnected_parts(the_body.discretization);
+    the_body.is_one_piece   = parts.empty();
+    if (!parts.empty())
+      log.warning("Mesh: " + parts);
+  }
+
+  void
   Simulation::check_supports()
   {
     // The springs at the first time that is solved for.
     const auto springs =
       system.equation().terms.springs(the_body.reference, stepper.first_time());
-    const RigidMotions free(the_body.discretization,
-                            the_body.motion,
-                            springs ? springs->springs() :
+    const RigidMotions free_motions(the_body.discretization,
+                                    the_body.motion,
+                                    springs ?
+                                      springs->springs() :
                                       std::vector<RigidMotions::Spring>());
-    the_body.is_one_piece     = free.n_parts() == 1;
-    const std::string motions = free.description();
+    the_body.is_one_piece     = free_motions.n_parts() == 1;
+    const std::string motions = free_motions.description();
     if (motions.empty())
       {
         if (springs)

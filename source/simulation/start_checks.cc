@@ -168,7 +168,7 @@ namespace corotet
   } // namespace
 
   void
-  warn_of_body(Body &body, const SimulationParameters &parameters, Log &log)
+  warn_of_body(const Body &body, Log &log)
   {
     warn_of_law(body, log);
     for (const auto &[region, material] : body.materials)
@@ -199,12 +199,6 @@ namespace corotet
                       "enough, and Linear solver/Type = direct needs no "
                       "iterations");
       }
-    if (!parameters.time_integrator.selected().is_dynamic())
-      return;
-    const std::string parts = unconnected_parts(body.discretization);
-    body.is_one_piece       = parts.empty();
-    if (!parts.empty())
-      log.warning("Mesh: " + parts);
   }
 
   void

@@ -6,6 +6,7 @@
 
 #include <corotet/operators/elasticity.h>
 
+#include <limits>
 #include <vector>
 
 namespace corotet
@@ -39,6 +40,15 @@ namespace corotet
     of_rotations() const
     {
       return by_rotations;
+    }
+
+    /// The error that round-off makes in displacements, and by the rotation of
+    /// cells, where displacements and the body are of this size [m]: a bound
+    /// that is never exceeded.
+    static double
+    error_of_displacements(const double size)
+    {
+      return 16 * std::numeric_limits<double>::epsilon() * size;
     }
 
     /// For each owned node, the square of the force that an error of

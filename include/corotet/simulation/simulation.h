@@ -168,7 +168,11 @@ namespace corotet
     }
 
   private:
-    /// Throws InputError if supports leave the body a rigid motion.
+    /// Warns of parts of the body that do not hang together.
+    void
+    look_for_parts();
+    /// Throws InputError if supports leave the body a rigid motion, as parts
+    /// without a support do.
     void
     check_supports();
     /// Runs @p action. If that fails, observers are told so.

@@ -27,12 +27,10 @@ namespace corotet
 
   /**
    * Warns of what is allowed, and seldom meant: materials that are almost
-   * incompressible, and parts of the body that do not hang together (in
-   * dynamics, where it sets Body::is_one_piece; statics refuses those without a
-   * support). Collective.
+   * incompressible. Collective.
    */
   void
-  warn_of_body(Body &body, const SimulationParameters &parameters, Log &log);
+  warn_of_body(const Body &body, Log &log);
 
   /**
    * Warns of forces that cannot act: of loads and supports whose force is on
