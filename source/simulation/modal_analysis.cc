@@ -118,30 +118,7 @@ namespace corotet
     choose_shift();
     // The estimate for a mode that deforms the body.
     const double     with_strain = lowest;
-    const Eigenpairs pairs       = [&] {
-      try
-        {
-          return solver.solve(parameters.modes.number, shift);
-        }
-      catch (const ComputationError &error)
-        {
-          // With less, rigid motions drown all else in solves with A.
-          constexpr double least = 1e-6;
-          if (parameters.modes.shift == 0 || !(shift < least * lowest))
-            throw;
-          const bool is_singular =
-            dynamic_cast<const SingularMatrixError *>(&error) != nullptr;
-          throw ComputationError(fmt::format(
-            "Modes/Shift: found {:.6g} 1/s^2, which is too small: {}; allowed: "
-                  "a larger one, best {:.3g} to {:.3g} 1/s^2, 1e-3 to 0.1 times "
-                  "omega^2 of the lowest mode that deforms the body (0: the "
-                  "program's choice)",
-            shift,
-            is_singular ? "round-off makes K + s M singular" : error.what(),
-            1e-3 * lowest,
-            0.1 * lowest));
-        }
-    }();
+    const Eigenpairs pairs       = solve();
     if (pairs.values.size() > rigid_motions.size())
       lowest = pairs.values[rigid_motions.size()];
     if (!rigid_motions.is_complete())
@@ -170,6 +147,32 @@ namespace corotet
             i + 1,
             computed[i].frequency,
             computed[i].eigenvalue / with_strain));
+      }
+  }
+
+  Eigenpairs
+  ModalAnalysis::solve()
+  {
+    try
+      {
+        return solver.solve(parameters.modes.number, shift);
+      }
+    catch (const ComputationError &error)
+      {
+        // With less, rigid motions drown all else in solves with A.
+        constexpr double least = 1e-6;
+        if (parameters.modes.shift == 0 || !(shift < least * lowest))
+          throw;
+        const bool is_singular =
+          dynamic_cast<const SingularMatrixError *>(&error) != nullptr;
+        throw ComputationError(fmt::format(
+          "Modes/Shift: found {:.6g} 1/s^2, which is too small: {}; allowed: a "
+          "larger one, best {:.3g} to {:.3g} 1/s^2, 1e-3 to 0.1 times omega^2 "
+          "of the lowest mode that deforms the body (0: the program's choice)",
+          shift,
+          is_singular ? "round-off makes K + s M singular" : error.what(),
+          1e-3 * lowest,
+          0.1 * lowest));
       }
   }
 

@@ -112,6 +112,10 @@ namespace corotet
     /// body.
     void
     choose_shift();
+    /// Finds the eigenpairs with the shift. Throws ComputationError, which
+    /// names a given shift that is too small. Collective.
+    Eigenpairs
+    solve();
     /// Throws InputError if the shift is beyond all modes. Collective.
     void
     check_shift() const;
