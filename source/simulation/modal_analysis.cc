@@ -284,12 +284,16 @@ namespace corotet
     mode.residual     = norm(r) / unit;
     // The bound of the round-off in a sum of n terms is n epsilon times the sum
     // of their sizes. A row i has at most some three hundred terms, whose sizes
-    // sum up to about three times K_ii phi_i.
+    // sum up to about three times K_ii phi_i. In a body far from the origin,
+    // places of nodes and with them motions of the body are rounded, too.
+    const double distance =
+      std::max(Tensor<1, 3>(box.first).norm(), Tensor<1, 3>(box.second).norm());
+    const double n_roundings = 1000 + 4 * distance / length;
     for (unsigned int i = 0; i < r.locally_owned_size(); ++i)
       r.local_element(i) =
         A.diagonal().local_element(i) * mode.shape.local_element(i);
     mode.round_off =
-      1000 * std::numeric_limits<double>::epsilon() * norm(r) / unit;
+      n_roundings * std::numeric_limits<double>::epsilon() * norm(r) / unit;
 
     // The participation includes the nodes of supports, which phi moves through
     // M.

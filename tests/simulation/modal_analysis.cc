@@ -137,6 +137,25 @@ TEST(ModalAnalysis, FreeBody)
     }
 }
 
+// Far from the origin, as where coordinates are those of a map, places of nodes
+// are rounded to 1e-9 m, and rigid motions have as much strain. The distance is
+// a power of two, so the vertices themselves are exact.
+TEST(ModalAnalysis, FarFromTheOrigin)
+{
+  for (const unsigned int degree : {1u, 2u, 3u})
+    {
+      SCOPED_TRACE(degree);
+      const std::string text =
+        box_body("1, 0.5, 0.25", "4, 2, 1", degree, 0.3, 8);
+      const Analysis near(text);
+      const Analysis far(
+        text + section("Mesh",
+                       {section("box", {{"Origin", "8388608, -8388608, 0"}})}));
+      for (unsigned int i = 7; i <= 8; ++i)
+        EXPECT_NEAR(far.mode(i).frequency / near.mode(i).frequency, 1, 1e-8);
+    }
+}
+
 // The reported properties of a mode fit its vector: its residual, evaluated
 // here, its amplitude, and zero displacement at the support.
 TEST(ModalAnalysis, ShapesSolveTheEquation)
