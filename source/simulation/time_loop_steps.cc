@@ -6,6 +6,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/time_loop.h>
+#include <corotet/solvers/singular_matrix_error.h>
 
 #include <fmt/format.h>
 
@@ -119,6 +120,25 @@ namespace corotet
         parts_left.back().halvings_left = halvings_left - 1;
         parts_left.push_back({middle, halvings_left - 1});
       }
+  }
+
+  bool
+  TimeLoop::is_singular_for_good(const ComputationError &error) const
+  {
+    if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr ||
+        integrator->is_dynamic())
+      return false;
+    Vector difference(present.u);
+    difference -= budget->last_displacement();
+    return body.law->is_linear() || norm(difference) == 0;
+  }
+
+  void
+  TimeLoop::announce_half(const double to, const ComputationError &error) const
+  {
+    log.line(fmt::format("t = {:.6g}: {}; trying half the step",
+                         time(to),
+                         error.what()));
   }
 
   void
@@ -286,5 +306,12 @@ namespace corotet
         energy,
         energy_supply,
         cause()));
+  }
+
+  void
+  TimeLoop::complete(StepRecord &record)
+  {
+    budget->record(record, present, time(done));
+    record.clamped_cells = system.implicit_solver().take_clamped_cells();
   }
 } // namespace corotet

@@ -6,6 +6,7 @@
 // factorised only once.
 
 #include <corotet/discretization/rigid_motions.h>
+#include <corotet/solvers/singular_matrix_error.h>
 
 #include <gtest/gtest.h>
 

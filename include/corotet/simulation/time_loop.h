@@ -8,9 +8,6 @@
 #include <corotet/simulation/adaptive_step.h>
 #include <corotet/simulation/energy_budget.h>
 #include <corotet/simulation/structural_system.h>
-#include <corotet/solvers/singular_matrix_error.h>
-
-#include <fmt/format.h>
 
 #include <functional>
 #include <memory>
@@ -248,22 +245,9 @@ namespace corotet
     /// body, or of the state at its start. (The mass of dynamics makes the
     /// matrix of a shorter step another one.)
     bool
-    is_singular_for_good(const ComputationError &error) const
-    {
-      if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr ||
-          integrator->is_dynamic())
-        return false;
-      Vector difference(present.u);
-      difference -= budget->last_displacement();
-      return body.law->is_linear() || norm(difference) == 0;
-    }
+    is_singular_for_good(const ComputationError &error) const;
     void
-    announce_half(const double to, const ComputationError &error) const
-    {
-      log.line(fmt::format("t = {:.6g}: {}; trying half the step",
-                           time(to),
-                           error.what()));
-    }
+    announce_half(const double to, const ComputationError &error) const;
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
@@ -317,11 +301,7 @@ namespace corotet
     finish_step(const double from, const double to, StepRecord &record);
     /// Fills in the record of the present state.
     void
-    complete(StepRecord &record)
-    {
-      budget->record(record, present, time(done));
-      record.clamped_cells = system.implicit_solver().take_clamped_cells();
-    }
+    complete(StepRecord &record);
     /// Throws ComputationError if energy has come out of nothing.
     void
     check_growth(const StepRecord &record);
