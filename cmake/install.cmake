@@ -24,15 +24,21 @@ set(modules commands display exports fields films frames gltf lagrange results s
 list(TRANSFORM modules REPLACE "(.+)" "scripts/\\1.py")
 install(FILES ${modules} DESTINATION ${data}/scripts COMPONENT ${runtime})
 install(DIRECTORY parameters meshes DESTINATION ${data} COMPONENT ${runtime})
-install(FILES README.md CHANGELOG.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${runtime})
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT ${runtime})
 install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT ${runtime})
+# Pages link to ready cases, meshes and the licence as in the sources.
+cmake_path(RELATIVE_PATH data BASE_DIRECTORY ${CMAKE_INSTALL_DOCDIR} OUTPUT_VARIABLE data_from_pages)
+install(CODE "foreach(folder parameters meshes)
+  file(CREATE_LINK ${data_from_pages}/\${folder} \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/\${folder} SYMBOLIC)
+endforeach()
+file(CREATE_LINK copyright \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/LICENSE SYMBOLIC)" COMPONENT ${runtime})
 install(FILES doc/corotet.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${runtime})
 install(FILES scripts/completion/corotet.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME corotet COMPONENT ${runtime})
 install(FILES scripts/completion/_corotet DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${runtime})
 install(FILES scripts/completion/corotet.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT ${runtime})
 # The project of the tutorial, as an example.
-install(DIRECTORY tests/external/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/examples COMPONENT ${development})
+install(DIRECTORY tests/external DESTINATION ${CMAKE_INSTALL_DOCDIR}/tests COMPONENT ${development})
 
 install(CODE "set(SOURCE \"${PROJECT_SOURCE_DIR}/include\")
 set(DESTINATION \"\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_INCLUDEDIR}\")" COMPONENT ${development})

@@ -90,12 +90,15 @@ def choose_field(run, wanted):
 
 
 def choose_arrays(run, wanted):
-    """Two lists: names of the wanted arrays at nodes, and of the wanted arrays of cells. If none is wanted, the lists have all names."""
-    names = list(dict.fromkeys([*run.point_fields, *run.cell_fields]))
+    """Two lists: names of the wanted arrays at nodes, and of the wanted arrays of cells, which have names as in fields_of(). If none is wanted,
+    the lists have all names."""
+    of_nodes = {name: name for name in run.point_fields}
+    of_cells = {f"cells.{name}" if name in run.point_fields else name: name for name in run.cell_fields}
+    names = [*of_nodes, *of_cells]
     for name in wanted or []:
         if name not in names:
             raise WrongInput(f"no field '{name}' in {run.folder}; {nearest(name, names)}")
-    return [[name for name in fields if not wanted or name in wanted] for fields in (run.point_fields, run.cell_fields)]
+    return [[array for name, array in arrays.items() if not wanted or name in wanted] for arrays in (of_nodes, of_cells)]
 
 
 def mean_of_cells(run, values):

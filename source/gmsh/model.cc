@@ -137,6 +137,23 @@ namespace corotet::gmsh_program
 
 
 
+    // Counts the partitions of the mesh, and those that have cells.
+    void
+    count_partitions(GmshModel &model)
+    {
+      model.n_partitions = gmsh::model::getNumberOfPartitions();
+      std::set<int> with_cells;
+      for (const GmshModel::Elements &elements : model.volumes)
+        {
+          std::vector<int> partitions;
+          gmsh::model::getPartitions(3, elements.entity, partitions);
+          with_cells.insert(partitions.begin(), partitions.end());
+        }
+      model.n_partitions_with_cells = with_cells.size();
+    }
+
+
+
     std::vector<int>
     curved_surfaces()
     {
@@ -340,6 +357,7 @@ namespace corotet::gmsh_program
             model.groups.push_back(group);
         }
     model.volumes = elements(3, tetrahedra);
+    count_partitions(model);
     // gmsh's types of triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});
     model.curved_surfaces = curved_surfaces();

@@ -145,6 +145,14 @@ namespace corotet
                            path + ": is no text: found a byte that is zero");
         const std::vector<Token>       tokens  = tokens_of(text);
         const std::vector<std::size_t> closing = closing_brackets(tokens);
+        const unsigned                 last_line =
+          1 + std::count(text.begin(), text.end(), '\n');
+        if (!tokens.empty() && tokens.back().line == last_line)
+          throw InputError("",
+                           fmt::format("{}:{}: the last line does not end with "
+                                       "a line break: gmsh would leave it out",
+                                       path,
+                                       last_line));
         for (std::size_t i = 0; i < tokens.size(); ++i)
           if (tokens[i].kind == Kind::word)
             {

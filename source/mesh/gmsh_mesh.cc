@@ -321,6 +321,15 @@ namespace corotet
     const PhysicalGroups volumes  = physical_groups(model, 3);
     const PhysicalGroups surfaces = physical_groups(model, 2);
 
+    if (model.n_partitions_with_cells < model.n_partitions)
+      throw InputError(
+        "",
+        fmt::format("{}: found the cells of {} of the {} partitions of the "
+                    "mesh; allowed is a file with all of them, as gmsh writes "
+                    "without the option -part_split",
+                    path,
+                    model.n_partitions_with_cells,
+                    model.n_partitions));
     SerialMesh mesh;
     mesh.origin     = path;
     mesh.regions    = volumes.named;

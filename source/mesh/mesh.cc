@@ -145,6 +145,13 @@ namespace corotet
         ScopedTimer timer(result.scatter_time);
         NamedParts  named;
         on_root(comm, [&] {
+          if (mesh.n_refinements > n_refinements)
+            refuse_mesh(mesh.origin,
+                        fmt::format("found {} refinements by the source of the "
+                                    "mesh; allowed: at most the {} that were "
+                                    "asked for",
+                                    mesh.n_refinements,
+                                    n_refinements));
           n_refinements -= mesh.n_refinements;
           check_vertices(mesh);
           check_size(mesh.origin,
@@ -285,6 +292,8 @@ namespace corotet
       return statistics;
     };
     MeshStatistics statistics = spread_out();
+    if (element_degree > 1)
+      on_all_ranks(comm, [&] { check_common_nodes(local_mesh, mesh.origin); });
     check_surface_on_ranks(local_mesh, mesh.origin);
     check_boundaries(mesh.origin);
     if (n_refinements > 0)

@@ -13,6 +13,7 @@
 #include <climits>
 #include <cmath>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 #include "model_builder.h"
@@ -56,7 +57,14 @@ namespace corotet
       GmshModel
       model() const
       {
-        return builder.model();
+        GmshModel result = builder.model();
+        if (!partitions.empty())
+          result.n_partitions = *partitions.rbegin();
+        result.n_partitions_with_cells = partitions.size();
+        if (result.n_partitions == 1)
+          result.remark = "all cells are of partition 1: is this the whole "
+                          "mesh, or one of several files?";
+        return result;
       }
 
     private:
@@ -180,7 +188,8 @@ namespace corotet
       }
 
       // Reads an element. The tags are the physical group, the entity, and
-      // partitions if there are any.
+      // partitions if there are any: their number, that of the element, and
+      // negative those of which it is a ghost.
       void
       read_element(const int number, const GmshType &type, const int n_tags)
       {
@@ -194,6 +203,8 @@ namespace corotet
               group = tag;
             else if (i == 1)
               entity = tag;
+            else if (i == 3 && type.dimension == 3 && tag > 0)
+              partitions.insert(tag);
           }
         nodes.clear();
         for (unsigned int i = 0; i < type.n_nodes; ++i)
@@ -249,6 +260,8 @@ namespace corotet
       std::vector<Element>       all;
       std::vector<std::uint64_t> all_nodes, nodes;
       ModelBuilder               builder;
+      // The partitions that cells belong to.
+      std::set<int> partitions;
     };
   } // namespace
 

@@ -215,6 +215,16 @@ namespace corotet
     });
   }
 
+  bool
+  ForceTerms::has_other_velocity_forces() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      const MatrixShares shares = term.damping_shares();
+      return term.depends_on_velocity() && shares.stiffness == 0 &&
+             shares.mass == 0 && !term.has_surface_matrix();
+    });
+  }
+
   MatrixShares
   ForceTerms::damping_shares() const
   {

@@ -293,7 +293,8 @@ namespace corotet
     const Motion motion     = equation.motion(time);
     record.elastic_energy   = elastic.energy + force_terms.energy(motion);
     if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
-      throw ComputationError("the energy is not finite");
+      throw ComputationError("the energy is not finite" +
+                             equation.why_not_finite());
     record.min_det_F        = elastic.min_det_F;
     record.inverted_cells   = elastic.inverted_cells;
     record.degenerate_cells = elastic.degenerate_cells;

@@ -152,6 +152,10 @@ namespace corotet
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",
                                report.linear_iterations));
+        if (integrator->is_explicit() &&
+            system.equation().terms.has_other_velocity_forces())
+          log.warning("forces that depend on the velocity get that of half a "
+                      "step before: the steps are of first order");
         if (!std::isfinite(body.root_mean_square(present.a)))
           throw ComputationError("the forces at the start are not finite" +
                                  system.equation().why_not_finite());
@@ -185,18 +189,17 @@ namespace corotet
           fmt::format("step {}: made in {} parts", record.step, record.parts));
         log.count("step made in parts", "steps made in parts");
       }
-    // Dynamics only: in statics the balance is the error of the work between
-    // load steps.
     constexpr double much = 0.1;
-    if (is_done() && integrator->is_dynamic() &&
-        record.energy_balance > much * energy_supply)
-      log.warning(
-        fmt::format("energy_balance: {:.3g} J have come out of nothing, and "
-                    "{:.3g} J have been put in: shorter time steps, finer "
-                    "cells or Material/Rotation = quadrature points make such "
-                    "errors smaller",
-                    record.energy_balance,
-                    energy_supply));
+    if (is_done() && std::abs(worst_balance) > much * energy_supply)
+      log.warning(fmt::format(
+        "energy_balance: up to {:.3g} J have {}, and {:.3g} J have been put "
+        "in: shorter time steps{}, finer cells or Material/Rotation = "
+        "quadrature points make such errors smaller",
+        std::abs(worst_balance),
+        worst_balance > 0 ? "come out of nothing" : "been lost",
+        energy_supply,
+        integrator->is_explicit() ? ", more estimates of the stable step" :
+                                    ""));
     if (is_done() && adaptive)
       {
         log.line(fmt::format("Adaptive step: repeated steps: {}",

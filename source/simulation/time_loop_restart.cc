@@ -133,6 +133,7 @@ namespace corotet
     archive.transfer("first_done", first_done);
     archive.transfer("step_length", step_length);
     archive.transfer("energy_supply", energy_supply);
+    archive.transfer("worst_balance", worst_balance);
     archive.transfer("amplification", amplification);
     archive.transfer("has_warned", has_warned);
     archive.within("state", [&] { present.transfer(archive); });

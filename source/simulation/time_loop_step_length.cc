@@ -137,12 +137,30 @@ namespace corotet
     constexpr double least_distance_from_limit = 1e-3;
   } // namespace
 
+  AccelerationSolver::LargestFrequencies
+  TimeLoop::largest_frequencies()
+  {
+    try
+      {
+        return system.acceleration_solver().largest_frequencies(present,
+                                                                time(done));
+      }
+    catch (const ComputationError &error)
+      {
+        if (done == 0)
+          throw;
+        throw ComputationError(
+          fmt::format("{}; does the body become stiffer quickly? Then 'Steps "
+                      "between estimates' or 'Safety factor' must be smaller",
+                      error.what()));
+      }
+  }
+
   void
   TimeLoop::follow_stable_step()
   {
     const StabilityControl &control = *integrator->stability();
-    const auto [omega, damped] =
-      system.acceleration_solver().largest_frequencies(present, time(done));
+    const auto [omega, damped]      = largest_frequencies();
     // A step dt is stable if (dt omega)^2 + 2 alpha_K dt damped^2 is at most
     // the limit for one frequency, as the largest eigenvalue of the sum is no
     // larger than the sum of both. So the damping counts by the ratio of these

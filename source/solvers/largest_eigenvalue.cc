@@ -76,7 +76,7 @@ namespace corotet
       const double norm = std::sqrt(std::max(x * z, 0.));
       if (!std::isfinite(norm))
         throw ComputationError(
-          "the largest eigenvalue: a vector is not finite");
+          "the largest eigenvalue: the matrices are not finite");
       if (norm > 0)
         x *= 1 / norm;
       return norm;

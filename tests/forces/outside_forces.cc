@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
+#include "../simulation/complete_run.h"
 
 using namespace corotet;
 using namespace corotet::tests;
@@ -192,6 +193,49 @@ TEST(OutsideForces, EntryOfAnotherKind)
       EXPECT_STREQ(error.what(),
                    "two kinds of force have the entry 'Loads/Gravity': "
                    "'gravity' and 'second'");
+    }
+}
+
+// Explicit steps take such forces with the velocity of half a step before.
+TEST(OutsideForces, VelocityInExplicitSteps)
+{
+  class Drag : public Pull
+  {
+  public:
+    using Pull::Pull;
+
+    bool
+    depends_on_velocity() const override
+    {
+      return true;
+    }
+  };
+  class DragKind : public PullKind
+  {
+  public:
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override
+    {
+      terms.add(std::make_unique<Drag>(context, 1.));
+    }
+  };
+  const AddedCandidate<ForceKind> added(candidate<ForceKind, DragKind>("drag"));
+  const std::string               body =
+    box_mesh("1, 1, 1", "1, 1, 1") + element_text(1, "row sum") +
+    section("Initial conditions", {{"Velocity", "1; 0; 0"}});
+  const std::string first_order = "forces that depend on the velocity get that "
+                                  "of half a step before: the steps are of "
+                                  "first order";
+  for (const auto &[type, expected] :
+       {std::pair("central difference", std::vector{first_order}),
+        std::pair("Newmark", std::vector<std::string>())})
+    {
+      CompleteRun run(
+        body +
+        section("Time integration",
+                {{"Type", type}, {"Time step", 1e-4}, {"End time", 2e-4}}));
+      EXPECT_EQ(run.run(), "");
+      EXPECT_EQ(warnings(run), expected);
     }
 }
 

@@ -279,7 +279,7 @@ TEST(GmshMesh, BrokenFiles)
 TEST(GmshMesh, NoTetrahedra)
 {
   const TemporaryFolder folder;
-  std::string           file = folder.write("point.geo", "Point(1) = {0,0,0};");
+  std::string file = folder.write("point.geo", "Point(1) = {0,0,0};\n");
   EXPECT_EQ(message(file), file + ": the mesh has no tetrahedra");
   file = folder.write("triangle.msh",
                       msh(unit_nodes, "1\n1 2 2 1 1 10 2000000 300\n"));

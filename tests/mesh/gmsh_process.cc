@@ -111,6 +111,11 @@ TEST(GmshProcess, GeometryMayNotDoHarm)
     folder.write("x.geo", std::string("// \0 Exit;\n", 11));
   EXPECT_EQ(message_of(with_zero),
             with_zero + ": is no text: found a byte that is zero");
+  // gmsh leaves out a last line without a line break.
+  const std::string cut = folder.write("x.geo", "x = 1;\ny = 2;");
+  EXPECT_EQ(message_of(cut),
+            cut + ":2: the last line does not end with a line break: gmsh "
+                  "would leave it out");
   // A forbidden word in a file that is included is reported with that file and
   // line; a link may not lead out of the folder either.
   const std::string part = folder.write("part.geo", "x = 1;\nExit;\n");

@@ -208,6 +208,47 @@ TEST(GroupsOfFiles, Partitions)
   EXPECT_TRUE(mesh.remarks.empty());
 }
 
+// A mesh that gmsh has split into files is not taken for the whole where its
+// number of partitions, or in version 2 the number of a partition, tells. Where
+// all cells are of partition 1 a remark asks.
+TEST(GroupsOfFiles, SplitMesh)
+{
+  const TemporaryFolder folder;
+  for (const double version : {2.2, 4.1})
+    for (const int binary : {0, 1})
+      {
+        SCOPED_TRACE(fmt::format("{} {}", version, binary));
+        write_shapes(folder / "parts.msh", [&] {
+          gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
+          gmsh::model::occ::synchronize();
+          gmsh::option::setNumber("Mesh.MeshSizeMax", 0.5);
+          gmsh::model::mesh::generate(3);
+          gmsh::model::mesh::partition(3);
+          gmsh::option::setNumber("Mesh.PartitionSplitMeshFiles", 1);
+          gmsh::option::setNumber("Mesh.MshFileVersion", version);
+          gmsh::option::setNumber("Mesh.Binary", binary);
+        });
+        for (const int part : {1, 2, 3})
+          {
+            const std::string file = folder / fmt::format("parts_{}.msh", part);
+            if (version < 4 && part == 1)
+              {
+                EXPECT_EQ(read_file(file).remarks.front(),
+                          "all cells are of partition 1: is this the whole "
+                          "mesh, or one of several files?");
+                continue;
+              }
+            EXPECT_EQ(refusal([&] { read_file(file); }),
+                      fmt::format("{}: found the cells of 1 of the {} "
+                                  "partitions of the mesh; allowed is a file "
+                                  "with all of them, as gmsh writes without "
+                                  "the option -part_split",
+                                  file,
+                                  version < 4 ? part : 3));
+          }
+      }
+}
+
 TEST(GroupsOfFiles, RefusalsOfVersion2)
 {
   const TemporaryFolder folder;

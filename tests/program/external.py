@@ -79,6 +79,14 @@ class External(unittest.TestCase):
                 for path in (ROOT, BUILD):
                     self.assertNotIn(str(path).encode() + b"/", content, f"{file}: {path}")
 
+    def test_links_of_pages(self):
+        """Links of the installed pages lead to installed files."""
+        pages = list((self.prefix / "share" / "doc").rglob("*.md"))
+        self.assertGreater(len(pages), 20)
+        for page in pages:
+            for target in re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8")):
+                self.assertTrue(target.startswith("http") or (page.parent / target).exists(), f"{page}: {target}")
+
     def test_own_law(self):
         """The stretch of a bar in a smooth tube solves mu (s - 1 / s) + lambda
         (s - 1) = P, to Newton's tolerance."""

@@ -17,6 +17,7 @@ namespace corotet
    * - every volume is positive, that of the straight cell with the vertices of
    *   a curved one, too, and curved cells have no folds that elements of degree
    *   @p element_degree use;
+   * - curved cells have the same nodes on common edges and faces;
    * - a triangle belongs to one cell, or to two that lie on its two sides;
    * - no two vertices of the surface coincide, and nowhere does the surface
    *   touch itself other than in shared vertices and edges. (Where cells do not
@@ -30,7 +31,8 @@ namespace corotet
   void
   check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);
 
-  /// The part of check_mesh() that checks coordinates and indices of vertices.
+  /// The part of check_mesh() that checks coordinates and indices of vertices
+  /// and of the nodes of curved cells.
   void
   check_vertices(const SerialMesh &mesh);
 

@@ -113,6 +113,11 @@ namespace corotet
                      const unsigned int element_degree,
                      const MPI_Comm     comm);
 
+  /// Throws InputError, as check_mesh() does, if cells that share an edge or a
+  /// face have different nodes on it. Looks at the cells of @p mesh only.
+  void
+  check_common_nodes(const MeshCells &mesh, const std::string &origin);
+
   /// The sum of the volumes of curved cells minus those of the straight cells
   /// with the same vertices [m^3]. Exact.
   double

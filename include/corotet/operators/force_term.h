@@ -50,7 +50,10 @@ namespace corotet
    * Forces of programs that use the library can have the first and the last
    * form, as the matrix of the surface is not installed: so their stiffness is
    * not included in modes, stable steps and the check of supports in statics,
-   * and stiff ones take more iterations.
+   * and stiff ones take more iterations. Explicit steps give forces that depend
+   * on the velocity, but are neither proportional to the mass nor on the
+   * surface, that of half a step before: they are of first order then, and
+   * forces that do no work may do some.
    *
    * Forces must be functions of the motion alone, without a memory. They are
    * evaluated in any order, also before a run, at its end time, at

@@ -83,6 +83,11 @@ namespace corotet
     bool
     has_stiff_damping() const;
 
+    /// Whether any term depends on the velocity whose derivative is neither one
+    /// of the body's matrices nor of the surface.
+    bool
+    has_other_velocity_forces() const;
+
     /// The parts of the terms' - df/dv that consist of the body's matrices.
     MatrixShares
     damping_shares() const;

@@ -187,6 +187,8 @@ namespace corotet
     check_parameters() const;
     void
     choose_step();
+    AccelerationSolver::LargestFrequencies
+    largest_frequencies();
     /// Estimates the stable step, and takes it or compares the given one with
     /// it. Throws ComputationError.
     void
@@ -369,6 +371,9 @@ namespace corotet
     double  n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
+    /// The energy balance of dynamics that was worst so far [J]: the largest
+    /// gain, or in explicit steps without moving supports the largest loss.
+    double worst_balance = 0;
     /// The largest ratio of the energy of the fastest mode in an explicit run
     /// to the energy put into it [-].
     double amplification = 1;
