@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/disjoint_sets.h>
 #include <corotet/base/exceptions.h>
 #include <corotet/mesh/check_mesh.h>
 #include <corotet/mesh/file_mesh.h>
@@ -14,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <vector>
 
 namespace corotet
@@ -327,6 +329,21 @@ namespace corotet
                                 part.add(mesh.vertices[corner.vertex]);
                               });
     }
+
+
+    // The number of bodies that have no vertex in common.
+    unsigned int
+    number_of_bodies(const SerialMesh &mesh)
+    {
+      DisjointSets sets(mesh.vertices.size());
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        for (const unsigned int v : cell.vertices)
+          sets.unite(cell.vertices[0], v);
+      std::set<unsigned int> roots;
+      for (const SerialMesh::Cell &cell : mesh.cells)
+        roots.insert(sets.root(cell.vertices[0]));
+      return roots.size();
+    }
   } // namespace
 
 
@@ -348,6 +365,9 @@ namespace corotet
                                   [](const SerialMesh::Cell &cell) {
                                     return cell.curve != SerialMesh::straight;
                                   }));
+    if (const unsigned int n = number_of_bodies(mesh); n > 1)
+      result += fmt::format(
+        "{} bodies without a common vertex: each moves on its own\n", n);
     for (const std::string &remark : mesh.remarks)
       result += remark + '\n';
     return result + shapes(mesh) + regions(mesh) + boundaries(mesh) +

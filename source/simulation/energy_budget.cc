@@ -24,6 +24,16 @@ namespace corotet
                            vector.local_element(3 * n + 1),
                            vector.local_element(3 * n + 2)});
     }
+
+    // Fills in what the record says of the shapes of cells.
+    void
+    describe_cells(StepRecord &record, const ElasticState &state)
+    {
+      record.min_det_F        = state.min_det_F;
+      record.inverted_cells   = state.inverted_cells;
+      record.degenerate_cells = state.degenerate_cells;
+      record.robust_rotations = state.robust_rotations;
+    }
   } // namespace
 
   EnergyBudget::EnergyBudget(EquationOfMotion &equation,
@@ -295,10 +305,7 @@ namespace corotet
     if (!std::isfinite(record.elastic_energy + record.kinetic_energy))
       throw ComputationError("the energy is not finite" +
                              equation.why_not_finite());
-    record.min_det_F        = elastic.min_det_F;
-    record.inverted_cells   = elastic.inverted_cells;
-    record.degenerate_cells = elastic.degenerate_cells;
-    record.robust_rotations = elastic.robust_rotations;
+    describe_cells(record, elastic);
 
     const double external_work =
       work + force_terms.changing_energy(motion) - initial_changing_energy;

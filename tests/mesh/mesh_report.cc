@@ -79,6 +79,25 @@ TEST(MeshReport, Shapes)
   expect_line(text, "       1-1.5 100.00 %  " + std::string(40, '#'));
 }
 
+// Bodies that only touch are not one body.
+TEST(MeshReport, Bodies)
+{
+  EXPECT_EQ(report().find("bodies"), std::string::npos);
+  const std::string text = report([](SerialMesh &mesh) {
+    const unsigned int n = mesh.vertices.size();
+    for (unsigned int v = 0; v < n; ++v)
+      mesh.vertices.push_back(mesh.vertices[v] + dealii::Point<3>(1, 0, 0));
+    const auto cells = mesh.cells;
+    for (SerialMesh::Cell cell : cells)
+      {
+        for (unsigned int &v : cell.vertices)
+          v += n;
+        mesh.cells.push_back(cell);
+      }
+  });
+  expect_line(text, "2 bodies without a common vertex: each moves on its own");
+}
+
 // Each cell has a name of its own: the time grows with the number of names, not
 // with its square, which would be half a minute here.
 TEST(MeshReport, ManyNames)
