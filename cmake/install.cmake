@@ -30,9 +30,9 @@ install(DIRECTORY doc/ DESTINATION ${CMAKE_INSTALL_DOCDIR}/doc COMPONENT ${runti
 # Pages link to ready cases, meshes and the licence as in the sources.
 cmake_path(RELATIVE_PATH data BASE_DIRECTORY ${CMAKE_INSTALL_DOCDIR} OUTPUT_VARIABLE data_from_pages)
 install(CODE "foreach(folder parameters meshes)
-  file(CREATE_LINK ${data_from_pages}/\${folder} \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/\${folder} SYMBOLIC)
+  file(CREATE_LINK \"${data_from_pages}/\${folder}\" \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/\${folder}\" SYMBOLIC)
 endforeach()
-file(CREATE_LINK copyright \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/LICENSE SYMBOLIC)" COMPONENT ${runtime})
+file(CREATE_LINK copyright \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_DOCDIR}/LICENSE\" SYMBOLIC)" COMPONENT ${runtime})
 install(FILES doc/corotet.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${runtime})
 install(FILES scripts/completion/corotet.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME corotet COMPONENT ${runtime})
 install(FILES scripts/completion/_corotet DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/site-functions COMPONENT ${runtime})

@@ -216,9 +216,9 @@ namespace corotet
   }
 
   std::string
-  unconnected_parts(const Discretization &discretization)
+  unconnected_parts(const Discretization &discretization,
+                    const ConnectedParts &parts)
   {
-    const ConnectedParts                            parts(discretization);
     std::set<std::pair<unsigned int, unsigned int>> pairs;
     for (const auto &joint : parts.joints)
       pairs.insert({joint.part, joint.other});

@@ -109,6 +109,7 @@ namespace corotet
     const std::vector<Candidate<ForceKind>> candidates = force_kinds();
     for (const Candidate<ForceKind> &kind : candidates)
       kinds.push_back(kind.make());
+    n_of_library = kinds.size() - added_candidates<ForceKind>().size();
     // The kinds of the library share no entry.
     if (!added_candidates<ForceKind>().empty())
       check_entries(candidates);
@@ -135,8 +136,12 @@ namespace corotet
   ForceParameters::make(const ForceContext &context) const
   {
     ForceTerms terms(context.discretization);
-    for (const auto &kind : kinds)
-      kind->add_to(terms, context);
+    for (std::size_t k = 0; k < kinds.size(); ++k)
+      {
+        if (k == n_of_library)
+          terms.terms_of_programs_follow();
+        kinds[k]->add_to(terms, context);
+      }
     return terms;
   }
 

@@ -137,19 +137,21 @@ namespace corotet::gmsh_program
 
 
 
-    // Counts the partitions of the mesh, and those that have cells.
-    void
-    count_partitions(GmshModel &model)
+    // The only partition that has these cells, if there are others; else 0.
+    int
+    only_partition(const std::vector<GmshModel::Elements> &volumes)
     {
-      model.n_partitions = gmsh::model::getNumberOfPartitions();
       std::set<int> with_cells;
-      for (const GmshModel::Elements &elements : model.volumes)
+      for (const GmshModel::Elements &elements : volumes)
         {
           std::vector<int> partitions;
           gmsh::model::getPartitions(3, elements.entity, partitions);
           with_cells.insert(partitions.begin(), partitions.end());
         }
-      model.n_partitions_with_cells = with_cells.size();
+      return gmsh::model::getNumberOfPartitions() > 1 &&
+                 with_cells.size() == 1 ?
+               *with_cells.begin() :
+               0;
     }
 
 
@@ -356,8 +358,8 @@ namespace corotet::gmsh_program
           for (const GmshModel::Group &group : known)
             model.groups.push_back(group);
         }
-    model.volumes = elements(3, tetrahedra);
-    count_partitions(model);
+    model.volumes        = elements(3, tetrahedra);
+    model.only_partition = only_partition(model.volumes);
     // gmsh's types of triangles with 3, 6 and 10 nodes.
     model.surfaces        = elements(2, std::vector<int>{2, 9, 21});
     model.curved_surfaces = curved_surfaces();

@@ -145,14 +145,7 @@ namespace corotet
                            path + ": is no text: found a byte that is zero");
         const std::vector<Token>       tokens  = tokens_of(text);
         const std::vector<std::size_t> closing = closing_brackets(tokens);
-        const unsigned                 last_line =
-          1 + std::count(text.begin(), text.end(), '\n');
-        if (!tokens.empty() && tokens.back().line == last_line)
-          throw InputError("",
-                           fmt::format("{}:{}: the last line does not end with "
-                                       "a line break: gmsh would leave it out",
-                                       path,
-                                       last_line));
+        check_end(text, tokens, path);
         for (std::size_t i = 0; i < tokens.size(); ++i)
           if (tokens[i].kind == Kind::word)
             {
@@ -166,6 +159,26 @@ namespace corotet
               check_reading(tokens, i, depth);
               file = path;
             }
+      }
+
+      // gmsh leaves out a last line of its language without a line break.
+      static void
+      check_end(const std::string        &text,
+                const std::vector<Token> &tokens,
+                const std::string        &path)
+      {
+        std::string ending = fs::path(path).extension().string();
+        for (char &c : ending)
+          c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+        const unsigned last_line =
+          1 + std::count(text.begin(), text.end(), '\n');
+        if (ending == ".geo" && !tokens.empty() && text.back() != '\r' &&
+            tokens.back().line == last_line)
+          throw InputError("",
+                           fmt::format("{}:{}: the last line does not end with "
+                                       "a line break: gmsh would leave it out",
+                                       path,
+                                       last_line));
       }
 
       static bool

@@ -67,53 +67,18 @@ namespace corotet
 
 
 
-    // Checks that each curved cell has the nodes of one map, the first four of
-    // which are its vertices.
     void
-    check_curves(const SerialMesh &mesh)
+    check_finite(const std::vector<dealii::Point<3>> &points,
+                 const std::string                   &what,
+                 const std::string                   &origin)
     {
-      if (mesh.geometry_degree < 1 || mesh.geometry_degree > 3)
-        refuse_mesh(mesh.origin,
-                    fmt::format("curved cells have the degree {}; allowed are "
-                                "2 and 3",
-                                mesh.geometry_degree));
-      std::size_t n_curved = 0;
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        n_curved += cell.curve != SerialMesh::straight;
-      const std::size_t n_maps = mesh.curved_nodes.size() / mesh.n_map_nodes();
-      if ((n_curved > 0 && mesh.geometry_degree == 1) || n_maps != n_curved ||
-          mesh.curved_nodes.size() % mesh.n_map_nodes() != 0)
-        refuse_mesh(mesh.origin,
-                    fmt::format("{} curved cells of degree {} have {} nodes; "
-                                "they need {} each",
-                                n_curved,
-                                mesh.geometry_degree,
-                                mesh.curved_nodes.size(),
-                                mesh.n_map_nodes()));
-      std::vector<bool> is_used(n_maps);
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        {
-          if (cell.curve == SerialMesh::straight)
-            continue;
-          if (cell.curve >= n_maps || is_used[cell.curve])
-            refuse_mesh(
-              mesh.origin,
-              fmt::format("a curved cell has the number {} among {}; each must "
-                          "have one of its own, from 0 on",
-                          cell.curve,
-                          n_maps));
-          is_used[cell.curve] = true;
-          const auto   p      = cell_vertices(mesh, cell);
-          const double edge   = std::sqrt(square_of_longest_edge(p));
-          for (unsigned int v = 0; v < 4; ++v)
-            if (!(curved_nodes(mesh, cell)[v].distance(p[v]) <= 1e-10 * edge))
-              refuse_mesh(
-                mesh.origin,
-                fmt::format("a curved cell has the node {} for its vertex {}; "
-                            "the first four nodes must be the vertices",
-                            position(curved_nodes(mesh, cell)[v]),
-                            position(p[v])));
-        }
+      for (const dealii::Point<3> &p : points)
+        if (!std::isfinite(p.norm_square()))
+          refuse_mesh(origin,
+                      fmt::format("a {} has the coordinates {}; they must be "
+                                  "finite numbers",
+                                  what,
+                                  position(p)));
     }
 
 
@@ -229,16 +194,7 @@ namespace corotet
   {
     if (mesh.cells.empty())
       refuse_mesh(mesh.origin, "the mesh has no tetrahedra");
-    for (const auto &[points, what] :
-         {std::pair(&mesh.vertices, "vertex"),
-          std::pair(&mesh.curved_nodes, "node of a curved cell")})
-      for (const dealii::Point<3> &p : *points)
-        if (!std::isfinite(p.norm_square()))
-          refuse_mesh(mesh.origin,
-                      fmt::format("a {} has the coordinates {}; they must be "
-                                  "finite numbers",
-                                  what,
-                                  position(p)));
+    check_finite(mesh.vertices, "vertex", mesh.origin);
 
     // @p what names the wrong part; it is called for errors only, as it is
     // slow.
@@ -269,7 +225,58 @@ namespace corotet
     for (const SerialMesh::Corner &corner : mesh.corners)
       check(std::array<unsigned int, 1>{{corner.vertex}},
             [] { return "named corner"; });
-    check_curves(mesh);
+    check_curves(mesh, mesh.origin);
+  }
+
+
+
+  void
+  check_curves(const MeshCells &mesh, const std::string &origin)
+  {
+    check_finite(mesh.curved_nodes, "node of a curved cell", origin);
+    if (mesh.geometry_degree < 1 || mesh.geometry_degree > 3)
+      refuse_mesh(origin,
+                  fmt::format("curved cells have the degree {}; allowed are "
+                              "2 and 3",
+                              mesh.geometry_degree));
+    std::size_t n_curved = 0;
+    for (const MeshCells::Cell &cell : mesh.cells)
+      n_curved += cell.curve != MeshCells::straight;
+    const std::size_t n_maps = mesh.curved_nodes.size() / mesh.n_map_nodes();
+    if ((n_curved > 0 && mesh.geometry_degree == 1) || n_maps != n_curved ||
+        mesh.curved_nodes.size() % mesh.n_map_nodes() != 0)
+      refuse_mesh(origin,
+                  fmt::format("{} curved cells of degree {} have {} nodes; "
+                              "they need {} each",
+                              n_curved,
+                              mesh.geometry_degree,
+                              mesh.curved_nodes.size(),
+                              mesh.n_map_nodes()));
+    std::vector<bool> is_used(n_maps);
+    for (const MeshCells::Cell &cell : mesh.cells)
+      {
+        if (cell.curve == MeshCells::straight)
+          continue;
+        if (cell.curve >= n_maps || is_used[cell.curve])
+          refuse_mesh(
+            origin,
+            fmt::format("a curved cell has the number {} among {}; each must "
+                        "have one of its own, from 0 on",
+                        cell.curve,
+                        n_maps));
+        is_used[cell.curve] = true;
+        const auto   p      = cell_vertices(mesh, cell);
+        const double edge   = std::sqrt(square_of_longest_edge(p));
+        for (unsigned int v = 0; v < 4; ++v)
+          if (!(curved_nodes(mesh, cell)[v].distance(p[v]) <=
+                1e-10 * edge + 1e-14 * p[v].norm()))
+            refuse_mesh(
+              origin,
+              fmt::format("a curved cell has the node {} for its vertex {}; "
+                          "the first four nodes must be the vertices",
+                          position(curved_nodes(mesh, cell)[v]),
+                          position(p[v])));
+      }
   }
 
 
@@ -298,7 +305,8 @@ namespace corotet
     check_volumes(
       mesh, [](const unsigned int c) { return c; }, origin, MPI_COMM_SELF);
     check_curved_cells(mesh, origin, element_degree, MPI_COMM_SELF);
-    check_common_nodes(mesh, origin);
+    if (element_degree > 1)
+      check_common_nodes(mesh, origin);
     constexpr unsigned int none     = dealii::numbers::invalid_unsigned_int;
     const auto             is_owned = [](const unsigned int) { return true; };
     check_surface(cell_surface(mesh,

@@ -22,10 +22,13 @@ namespace corotet
 
   namespace
   {
-    // Nodes of two cells at the same place of an edge or a face may be as far
-    // apart as this part of the cells' longest edge: cells that are straight up
-    // to the digits of a file, which are not more, have become straight.
-    constexpr double tolerance = 5e-3;
+    // Nodes of two curved cells at the same place of an edge or a face may be
+    // as far apart as this part of the edge.
+    constexpr double round_off = 1e-6;
+    // Between a curved cell and a straight one this part of the cells' longest
+    // edge is allowed: cells that are straight up to the digits of a file,
+    // which are not more, have become straight.
+    constexpr double of_digits = 5e-3;
 
 
 
@@ -93,6 +96,8 @@ namespace corotet
       disagreement() const
       {
         const std::vector<bool> ends = ends_of_bent_sides();
+        if (std::find(ends.begin(), ends.end(), true) == ends.end())
+          return "";
         // The sides between such ends, in the order of their first corners.
         std::vector<std::size_t> starts(mesh.vertices.size() + 1);
         const auto               for_each = [&](const auto &action) {
@@ -197,6 +202,16 @@ namespace corotet
         return result;
       }
 
+      // The length of a side's first edge.
+      double
+      length(const unsigned int cell, const unsigned int side) const
+      {
+        const auto &v       = mesh.cells[cell].vertices;
+        const auto &corners = sides[side].corners;
+        return mesh.vertices[v[corners[0]]].distance(
+          mesh.vertices[v[corners[1]]]);
+      }
+
       // The vertices at which sides end that are not straight in a cell.
       std::vector<bool>
       ends_of_bent_sides() const
@@ -206,7 +221,7 @@ namespace corotet
           if (mesh.cells[c].curve != MeshCells::straight)
             for (unsigned int s = 0; s < sides.size(); ++s)
               for (const Tensor<1, 3> &offset : offsets(c, s))
-                if (offset.norm() > tolerance * longest_edge(c))
+                if (offset.norm() > 0.5 * round_off * length(c, s))
                   for (const unsigned int corner : sides[s].corners)
                     ends[mesh.cells[c].vertices[corner]] = true;
         return ends;
@@ -217,10 +232,15 @@ namespace corotet
       std::string
       difference(const Part &a, const Part &b) const
       {
-        const auto   of_a = offsets(a.cell, a.side);
-        const auto   of_b = offsets(b.cell, b.side);
+        const auto of_a = offsets(a.cell, a.side);
+        const auto of_b = offsets(b.cell, b.side);
+        const bool has_straight =
+          mesh.cells[a.cell].curve == MeshCells::straight ||
+          mesh.cells[b.cell].curve == MeshCells::straight;
         const double allowed =
-          tolerance * std::max(longest_edge(a.cell), longest_edge(b.cell));
+          has_straight ?
+            of_digits * std::max(longest_edge(a.cell), longest_edge(b.cell)) :
+            round_off * length(a.cell, a.side);
         for (unsigned int i = 0; i < of_a.size(); ++i)
           if ((of_a[i] - of_b[i]).norm() > allowed)
             {
@@ -232,7 +252,7 @@ namespace corotet
                 x += mesh.vertices[v[corner]] / double(side.corners.size());
               return fmt::format(
                 "cells with a common {} have different nodes there: found nodes "
-                "that are {:.3g} apart near {}; all cells must have the same",
+                "that are {:.3g} apart near {}; allowed is one place for all cells",
                 side.corners.size() == 2 ? "edge" : "face",
                 (of_a[i] - of_b[i]).norm(),
                 position(x));

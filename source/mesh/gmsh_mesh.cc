@@ -321,15 +321,14 @@ namespace corotet
     const PhysicalGroups volumes  = physical_groups(model, 3);
     const PhysicalGroups surfaces = physical_groups(model, 2);
 
-    if (model.n_partitions_with_cells < model.n_partitions)
+    if (model.only_partition > 0)
       throw InputError(
         "",
-        fmt::format("{}: found the cells of {} of the {} partitions of the "
-                    "mesh; allowed is a file with all of them, as gmsh writes "
-                    "without the option -part_split",
+        fmt::format("{}: found the cells of partition {} only; allowed is a "
+                    "file with those of all partitions, as gmsh writes without "
+                    "the option -part_split",
                     path,
-                    model.n_partitions_with_cells,
-                    model.n_partitions));
+                    model.only_partition));
     SerialMesh mesh;
     mesh.origin     = path;
     mesh.regions    = volumes.named;

@@ -310,21 +310,6 @@ namespace corotet
       return result;
     }
 
-    // Checks that the first nodes of curved cells are their vertices.
-    void
-    check_curves(const MeshPart &part, const std::string &path)
-    {
-      for (const MeshCells::Cell &cell : part.cells)
-        if (cell.curve != MeshCells::straight)
-          for (unsigned int k = 0; k < 4; ++k)
-            if (part.curved_nodes[std::size_t(part.n_map_nodes()) * cell.curve +
-                                  k] != part.vertices[cell.vertices[k]])
-              refuse(
-                path,
-                "found other nodes of a curved cell than its vertices at " +
-                  position(part.vertices[cell.vertices[k]]));
-    }
-
     // Checks that each list is in the order of the cells, and that no face is
     // listed twice.
     void

@@ -110,7 +110,7 @@ namespace corotet
       for (const std::string &remark : remarks)
         {
           log.line("  " + remark);
-          if (remark.starts_with("warning "))
+          if (remark.starts_with("warning"))
             log.count("warning", "warnings");
         }
     }
@@ -148,8 +148,8 @@ namespace corotet
           if (mesh.n_refinements > n_refinements)
             refuse_mesh(mesh.origin,
                         fmt::format("found {} refinements by the source of the "
-                                    "mesh; allowed: at most the {} that were "
-                                    "asked for",
+                                    "mesh; allowed: at most {}, the number "
+                                    "that was asked for",
                                     mesh.n_refinements,
                                     n_refinements));
           n_refinements -= mesh.n_refinements;
@@ -228,11 +228,14 @@ namespace corotet
     unsigned int                n_refinements = parameters.n_refinements;
     std::shared_ptr<SpreadMesh> mesh = source.create_spread(folder, comm);
     if (mesh)
-      check_size(mesh->origin,
-                 dealii::Utilities::MPI::sum(mesh->part.cells.size(), comm),
-                 n_refinements,
-                 element_degree,
-                 dealii::Utilities::MPI::n_mpi_processes(comm));
+      {
+        on_all_ranks(comm, [&] { check_curves(mesh->part, mesh->origin); });
+        check_size(mesh->origin,
+                   dealii::Utilities::MPI::sum(mesh->part.cells.size(), comm),
+                   n_refinements,
+                   element_degree,
+                   dealii::Utilities::MPI::n_mpi_processes(comm));
+      }
     else
       mesh = std::make_shared<SpreadMesh>(
         scattered(create_on_root(parameters, folder, comm),
@@ -292,7 +295,8 @@ namespace corotet
       return statistics;
     };
     MeshStatistics statistics = spread_out();
-    if (element_degree > 1)
+    // Refinements follow the curves at any degree.
+    if (element_degree > 1 || n_refinements > 0)
       on_all_ranks(comm, [&] { check_common_nodes(local_mesh, mesh.origin); });
     check_surface_on_ranks(local_mesh, mesh.origin);
     check_boundaries(mesh.origin);

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <vector>
 
 namespace corotet
@@ -335,14 +334,18 @@ namespace corotet
     unsigned int
     number_of_bodies(const SerialMesh &mesh)
     {
-      DisjointSets sets(mesh.vertices.size());
+      DisjointSets      sets(mesh.vertices.size());
+      std::vector<bool> is_used(mesh.vertices.size());
+      unsigned int      n = 0;
       for (const SerialMesh::Cell &cell : mesh.cells)
         for (const unsigned int v : cell.vertices)
-          sets.unite(cell.vertices[0], v);
-      std::set<unsigned int> roots;
-      for (const SerialMesh::Cell &cell : mesh.cells)
-        roots.insert(sets.root(cell.vertices[0]));
-      return roots.size();
+          {
+            n += !is_used[v];
+            is_used[v] = true;
+            n -= sets.root(v) != sets.root(cell.vertices[0]);
+            sets.unite(cell.vertices[0], v);
+          }
+      return n;
     }
   } // namespace
 
@@ -367,7 +370,7 @@ namespace corotet
                                   }));
     if (const unsigned int n = number_of_bodies(mesh); n > 1)
       result += fmt::format(
-        "{} bodies without a common vertex: each moves on its own\n", n);
+        "{} bodies without a common node, and each moves on its own\n", n);
     for (const std::string &remark : mesh.remarks)
       result += remark + '\n';
     return result + shapes(mesh) + regions(mesh) + boundaries(mesh) +

@@ -58,12 +58,12 @@ namespace corotet
       model() const
       {
         GmshModel result = builder.model();
-        if (!partitions.empty())
-          result.n_partitions = *partitions.rbegin();
-        result.n_partitions_with_cells = partitions.size();
-        if (result.n_partitions == 1)
-          result.remark = "all cells are of partition 1: is this the whole "
-                          "mesh, or one of several files?";
+        if (partitions.size() == 1 &&
+            (*partitions.begin() > 1 || all_partitions.size() > 1))
+          result.only_partition = *partitions.begin();
+        else if (partitions.size() == 1)
+          result.remark = "warning: all cells are of partition 1: is this the "
+                          "whole mesh, or one of several files?";
         return result;
       }
 
@@ -205,6 +205,8 @@ namespace corotet
               entity = tag;
             else if (i == 3 && type.dimension == 3 && tag > 0)
               partitions.insert(tag);
+            if (i >= 3)
+              all_partitions.insert(tag < 0 ? -(tag + 0LL) : tag);
           }
         nodes.clear();
         for (unsigned int i = 0; i < type.n_nodes; ++i)
@@ -260,8 +262,9 @@ namespace corotet
       std::vector<Element>       all;
       std::vector<std::uint64_t> all_nodes, nodes;
       ModelBuilder               builder;
-      // The partitions that cells belong to.
-      std::set<int> partitions;
+      // The partitions that cells belong to, and all that occur.
+      std::set<int>          partitions;
+      std::set<std::int64_t> all_partitions;
     };
   } // namespace
 

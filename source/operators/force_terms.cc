@@ -97,6 +97,8 @@ namespace corotet
     for (std::size_t i = terms.size(); i-- > 0;)
       if (terms[i]->role() == Role::damping)
         {
+          if (i < first_of_programs)
+            --first_of_programs;
           terms.erase(terms.begin() + i);
           names.erase(names.begin() + i);
         }
@@ -220,8 +222,9 @@ namespace corotet
   {
     return any_of(terms, [](const ForceTerm &term) {
       const MatrixShares shares = term.damping_shares();
-      return term.depends_on_velocity() && shares.stiffness == 0 &&
-             shares.mass == 0 && !term.has_surface_matrix();
+      const bool         has_matrix =
+        shares.stiffness != 0 || shares.mass != 0 || term.has_surface_matrix();
+      return term.depends_on_velocity() && !has_matrix;
     });
   }
 

@@ -48,10 +48,13 @@ namespace corotet
   void
   Simulation::look_for_parts()
   {
-    const std::string parts = unconnected_parts(the_body.discretization);
-    the_body.is_one_piece   = parts.empty();
-    if (!parts.empty())
-      log.warning("Mesh: " + parts);
+    const ConnectedParts parts(the_body.discretization);
+    // Parts on a hinge are not one piece.
+    the_body.is_one_piece = parts.n_parts == 1;
+    const std::string unconnected =
+      unconnected_parts(the_body.discretization, parts);
+    if (!unconnected.empty())
+      log.warning("Mesh: " + unconnected);
   }
 
   void

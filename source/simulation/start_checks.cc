@@ -201,8 +201,37 @@ namespace corotet
       }
   }
 
+  namespace
+  {
+    // Forces that programs add may come with wrong derivatives. @p w moves
+    // every node.
+    void
+    warn_of_derivatives(EquationOfMotion           &equation,
+                        const SimulationParameters &parameters,
+                        const Vector               &w,
+                        Log                        &log)
+    {
+      const TimeIntegrator &integrator = parameters.time_integrator.selected();
+      if (integrator.is_explicit())
+        return;
+      constexpr double tolerance = 1e-2;
+      const bool       dynamic   = integrator.is_dynamic();
+      Vector           v(w);
+      v = 0;
+      for (const auto &[name, error] : equation.terms.derivative_errors(
+             {parameters.start_time, w, dynamic ? w : v}, w, dynamic ? 1. : 0.))
+        if (error > tolerance)
+          log.warning(fmt::format(
+            "{}: the derivative that the program gives differs by {:.2g} % "
+            "from that of the force by finite differences: Newton's method is "
+            "slow",
+            name.empty() ? "a force of the program" : name,
+            100 * error));
+    }
+  } // namespace
+
   void
-  warn_of_forces(const EquationOfMotion     &equation,
+  warn_of_forces(EquationOfMotion           &equation,
                  const SimulationParameters &parameters,
                  Log                        &log)
   {
@@ -236,6 +265,7 @@ namespace corotet
         u.local_element(i)    = size * (0.5 + multiple - std::floor(multiple));
       }
     u.update_ghost_values();
+    warn_of_derivatives(equation, parameters, u, log);
     // Loads may act for a short while only, so more times are tried.
     constexpr unsigned int n_between = 100;
     std::vector<Motion>    motions{{parameters.start_time, u, u},

@@ -150,9 +150,12 @@ namespace corotet
         if (done == 0)
           throw;
         throw ComputationError(
-          fmt::format("{}; does the body become stiffer quickly? Then 'Steps "
-                      "between estimates' or 'Safety factor' must be smaller",
-                      error.what()));
+          fmt::format("{}; does the body become stiffer quickly? Then {} must "
+                      "be smaller",
+                      error.what(),
+                      n_steps > 0 ? "'Time step'" :
+                                    "'Steps between estimates' or 'Safety "
+                                    "factor'"));
       }
   }
 

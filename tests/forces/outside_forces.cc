@@ -196,6 +196,60 @@ TEST(OutsideForces, EntryOfAnotherKind)
     }
 }
 
+// A derivative of the wrong sign, and none at all, which differs by all of it.
+TEST(OutsideForces, WrongDerivative)
+{
+  static double scale = 1;
+  class Wrong : public Pull
+  {
+  public:
+    using Pull::Pull;
+
+    void
+    add_force(Vector &f, const Motion &motion) const override
+    {
+      Pull::add_linearized(f, motion.u, 0.);
+    }
+
+    void
+    add_linearized(Vector       &f,
+                   const Vector &w,
+                   const double  velocity_factor) const override
+    {
+      Vector scaled(w);
+      scaled *= scale;
+      Pull::add_linearized(f, scaled, velocity_factor);
+    }
+  };
+  class WrongKind : public PullKind
+  {
+  public:
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override
+    {
+      terms.add(std::make_unique<Wrong>(context, 1.), "Loads/Pull");
+    }
+  };
+  const AddedCandidate<ForceKind> added(
+    candidate<ForceKind, WrongKind>("wrong"));
+  for (const auto &[value, percent] :
+       {std::pair(1., ""), std::pair(-1., "2e+02"), std::pair(0., "1e+02")})
+    for (const bool is_static : {false, true})
+      {
+        scale = value;
+        CompleteRun              run(box_mesh("1, 1, 1", "1, 1, 1") +
+                        (is_static ? fixed("x-min") + statics() : ""));
+        std::vector<std::string> expected;
+        if (value != 1)
+          expected.push_back(fmt::format(
+            "Loads/Pull: the derivative that the program gives differs by {} "
+            "% from that of the force by finite differences: Newton's method "
+            "is slow",
+            percent));
+        EXPECT_EQ(warnings(run), expected);
+      }
+}
+
 // Explicit steps take such forces with the velocity of half a step before.
 TEST(OutsideForces, VelocityInExplicitSteps)
 {

@@ -8,6 +8,7 @@
 #include <corotet/mesh/curved_cells.h>
 #include <corotet/mesh/mesh.h>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "../curved_mesh.h"
@@ -61,10 +62,23 @@ namespace
   }
 
   const std::string fine = "nothing was refused";
+
+  std::string
+  different(const std::string &side,
+            const double       distance,
+            const std::string &place)
+  {
+    return fmt::format("Mesh/Type: cells with a common {} have different nodes "
+                       "there: found nodes that are {} apart near {}; allowed "
+                       "is one place for all cells",
+                       side,
+                       distance,
+                       place);
+  }
 } // namespace
 
-// The middle of the common edge is moved in one cell: by 0.1, and by half of
-// what the digits of a file may move it. The longest edge is 1.74 long.
+// A node of a common edge is moved in one cell, as far as round-off may do it,
+// and farther. The edge is 1.41 long.
 TEST(CommonNodes, OfEdges)
 {
   for (const unsigned int degree : {2u, 3u})
@@ -72,27 +86,26 @@ TEST(CommonNodes, OfEdges)
       SCOPED_TRACE(degree);
       SerialMesh mesh = two_cells(degree);
       EXPECT_EQ(refusal_of(mesh), fine);
-      const double at = degree == 2 ? 0.5 : 1. / 3;
-      move_node(mesh, Point<3>(1 - at, at, 0), Point<3>(0, 0, 0.004));
+      const double   at = degree == 2 ? 0.5 : 1. / 3;
+      const Point<3> x(1 - at, at, 0.1 * at * (1 - at));
+      move_node(mesh, x, Point<3>(0, 0, 1e-6));
       EXPECT_EQ(refusal_of(mesh), fine);
-      move_node(mesh, Point<3>(1 - at, at, 0), Point<3>(0, 0, 0.096));
-      EXPECT_EQ(refusal_of(mesh),
-                "Mesh/Type: cells with a common edge have different nodes "
-                "there: found nodes that are 0.1 apart near (0.5, 0.5, 0); all "
-                "cells must have the same");
+      move_node(mesh, x, Point<3>(0, 0, 0.001 - 1e-6));
+      EXPECT_EQ(refusal_of(mesh), different("edge", 0.001, "(0.5, 0.5, 0)"));
     }
 }
 
-// One of the cells is straight.
+// One of the cells is straight; the other one is bent by 0.025, or by as little
+// as the few digits of a file may hide. The longest edge is 1.41 long.
 TEST(CommonNodes, OfAStraightCell)
 {
   SerialMesh mesh     = two_cells(2);
   mesh.cells[1].curve = SerialMesh::straight;
   mesh.curved_nodes.resize(mesh.n_map_nodes());
-  EXPECT_EQ(refusal_of(mesh),
-            "Mesh/Type: cells with a common edge have different nodes there: "
-            "found nodes that are 0.025 apart near (0.5, 0.5, 0); all cells "
-            "must have the same");
+  EXPECT_EQ(refusal_of(mesh), different("edge", 0.025, "(0.5, 0.5, 0)"));
+  for (Point<3> &x : mesh.curved_nodes)
+    x[2] -= 0.08 * x[0] * x[1];
+  EXPECT_EQ(refusal_of(mesh), fine);
 }
 
 TEST(CommonNodes, OfFaces)
@@ -100,18 +113,18 @@ TEST(CommonNodes, OfFaces)
   SerialMesh mesh = two_cells(3);
   move_node(mesh, Point<3>(1. / 3, 1. / 3, 1. / 3), Point<3>(0, 0, 0.1));
   EXPECT_EQ(refusal_of(mesh),
-            "Mesh/Type: cells with a common face have different nodes there: "
-            "found nodes that are 0.1 apart near (0.333333, 0.333333, "
-            "0.333333); all cells must have the same");
+            different("face", 0.1, "(0.333333, 0.333333, 0.333333)"));
 }
 
-// Elements of degree 1 do not use the curves.
+// Elements of degree 1 do not use the curves, but refinements do.
 TEST(CommonNodes, ElementsOfDegree1)
 {
   SerialMesh mesh = two_cells(2);
   move_node(mesh, Point<3>(0.5, 0.5, 0), Point<3>(0, 0, 0.1));
   Log log(MPI_COMM_WORLD, true);
   EXPECT_EQ(refusal([&] { Mesh(mesh, 0, 1., MPI_COMM_WORLD, log, 1); }), fine);
+  EXPECT_EQ(refusal([&] { Mesh(mesh, 1, 1., MPI_COMM_WORLD, log, 1); }),
+            different("edge", 0.1, "(0.5, 0.5, 0)"));
 }
 
 // Mistakes that only a source of one's own can make.
@@ -150,5 +163,5 @@ TEST(CommonNodes, MoreRefinementsThanAskedFor)
   Log log(MPI_COMM_WORLD, true);
   EXPECT_EQ(refusal([&] { Mesh(mesh, 1, 1., MPI_COMM_WORLD, log, 2); }),
             "Mesh/Type: found 2 refinements by the source of the mesh; "
-            "allowed: at most the 1 that were asked for");
+            "allowed: at most 1, the number that was asked for");
 }

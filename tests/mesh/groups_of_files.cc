@@ -208,15 +208,16 @@ TEST(GroupsOfFiles, Partitions)
   EXPECT_TRUE(mesh.remarks.empty());
 }
 
-// A mesh that gmsh has split into files is not taken for the whole where its
-// number of partitions, or in version 2 the number of a partition, tells. Where
-// all cells are of partition 1 a remark asks.
+// A file of a mesh that gmsh has split is not taken for the whole, except that
+// the first one of version 2 has no sign of the others: a warning asks.
 TEST(GroupsOfFiles, SplitMesh)
 {
   const TemporaryFolder folder;
-  for (const double version : {2.2, 4.1})
+  for (const double version : {2.2, 4., 4.1})
     for (const int binary : {0, 1})
       {
+        if (version == 4. && binary == 1)
+          continue; // gmsh does not write that
         SCOPED_TRACE(fmt::format("{} {}", version, binary));
         write_shapes(folder / "parts.msh", [&] {
           gmsh::model::occ::addBox(0, 0, 0, 1, 2, 3);
@@ -234,17 +235,17 @@ TEST(GroupsOfFiles, SplitMesh)
             if (version < 4 && part == 1)
               {
                 EXPECT_EQ(read_file(file).remarks.front(),
-                          "all cells are of partition 1: is this the whole "
-                          "mesh, or one of several files?");
+                          "warning: all cells are of partition 1: is this the "
+                          "whole mesh, or one of several files?");
                 continue;
               }
             EXPECT_EQ(refusal([&] { read_file(file); }),
-                      fmt::format("{}: found the cells of 1 of the {} "
-                                  "partitions of the mesh; allowed is a file "
-                                  "with all of them, as gmsh writes without "
-                                  "the option -part_split",
+                      fmt::format("{}: found the cells of partition {} only; "
+                                  "allowed is a file with those of all "
+                                  "partitions, as gmsh writes without the "
+                                  "option -part_split",
                                   file,
-                                  version < 4 ? part : 3));
+                                  part));
           }
       }
 }

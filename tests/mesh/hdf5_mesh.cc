@@ -269,7 +269,7 @@ TEST(Hdf5Mesh, DamagedFiles)
     [](const std::string &file) {
       change(file, "curved_nodes", 3, 0.3, H5T_NATIVE_DOUBLE);
     },
-    "found other nodes of a curved cell than its vertices");
+    "the first four nodes must be the vertices");
   refused(
     [](const std::string &file) {
       // The text begins with the boundaries; the version number follows its

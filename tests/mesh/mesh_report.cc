@@ -95,7 +95,8 @@ TEST(MeshReport, Bodies)
         mesh.cells.push_back(cell);
       }
   });
-  expect_line(text, "2 bodies without a common vertex: each moves on its own");
+  expect_line(text,
+              "2 bodies without a common node, and each moves on its own");
 }
 
 // Each cell has a name of its own: the time grows with the number of names, not

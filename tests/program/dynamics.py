@@ -154,7 +154,7 @@ class Dynamics(ProgramTest):
         summary = read_summary(directory)
         self.assertEqual(summary["status"], "failed")
         self.assertIn("the motion is unstable", summary["message"])
-        self.assertIn("let 'Steps between estimates' or 'Safety factor' be smaller", summary["message"])
+        self.assertIn("let 'Time step', 'Steps between estimates' or 'Safety factor' be smaller", summary["message"])
         # The last row is that of the last good step.
         kinetic, work = self.columns(directory, "kinetic_energy", "external_work")
         self.assertGreater(len(kinetic), 2)

@@ -5,12 +5,15 @@
 // to see. Statics refuses them; a singular matrix that occurs nevertheless is
 // factorised only once.
 
+#include <corotet/base/mpi.h>
 #include <corotet/discretization/rigid_motions.h>
+#include <corotet/mesh/msh_file.h>
 #include <corotet/solvers/singular_matrix_error.h>
 
 #include <gtest/gtest.h>
 
 #include "../refusal.h"
+#include "../temporary_folder.h"
 #include "complete_run.h"
 #include "two_cubes.h"
 
@@ -65,12 +68,35 @@ TEST(Supports, OneBody)
     }
 }
 
+// Cubes that hang together at an edge or a vertex are not one piece: each part
+// has to converge in terms of its own forces.
+TEST(Supports, PartsOnAHinge)
+{
+  const TemporaryFolder folder;
+  const std::string     file = folder / "cubes.msh";
+  const std::string     cubes =
+    section("Mesh", {{"Type", "file"}, section("file", {{"File", file}})});
+  for (const double z : {0., 1.})
+    {
+      on_root(MPI_COMM_WORLD, [&] {
+        write_msh_file(file, two_cubes(dealii::Tensor<1, 3>({1., 1., z})));
+      });
+      CompleteRun dynamic(cubes);
+      EXPECT_FALSE(dynamic.simulation.body().is_one_piece);
+      CompleteRun in_statics(cubes + fixed("x-min, second x-max") + statics());
+      EXPECT_FALSE(in_statics.simulation.body().is_one_piece);
+    }
+  CompleteRun one(box_mesh("1, 1, 1", "1, 1, 1"));
+  EXPECT_TRUE(one.simulation.body().is_one_piece);
+}
+
 // Bodies with a common edge or vertex count as one.
 TEST(Supports, UnconnectedParts)
 {
   const auto found = [](const dealii::Tensor<1, 3> &shift) {
     const MovingBody body(two_cubes(shift), "");
-    return unconnected_parts(body.discretization);
+    return unconnected_parts(body.discretization,
+                             ConnectedParts(body.discretization));
   };
   EXPECT_EQ(
     found(dealii::Tensor<1, 3>({3., 0., 0.})),

@@ -121,7 +121,8 @@ namespace corotet
    * number of ranks. Collective.
    */
   std::string
-  unconnected_parts(const Discretization &discretization);
+  unconnected_parts(const Discretization &discretization,
+                    const ConnectedParts &parts);
 
   /**
    * The motions in words: "move along x and rotate about the axis through (0,

@@ -137,7 +137,9 @@ namespace corotet
     make_for_modes(const ForceContext &context) const;
 
   private:
+    /// The library's own kinds, and then those that programs have added.
     std::vector<std::unique_ptr<ForceKind>> kinds;
+    std::size_t                             n_of_library = 0;
   };
 
   /// All kinds of forces, with those that programs have added.

@@ -98,10 +98,8 @@ namespace corotet
     std::vector<Elements> curves;
     std::vector<Elements> points;
 
-    /// The number of partitions of the mesh, 0 if it was not partitioned, and
-    /// of those that have cells here.
-    unsigned int n_partitions            = 0;
-    unsigned int n_partitions_with_cells = 0;
+    /// The only partition that has cells here, if the mesh has others; else 0.
+    int only_partition = 0;
 
     /// Whether refining would make more cells than are allowed: then only
     /// volume_types is set.
@@ -148,8 +146,7 @@ namespace corotet
     bytes.transfer(model.is_too_large);
     transfer_elements(model.curves);
     transfer_elements(model.points);
-    bytes.transfer(model.n_partitions);
-    bytes.transfer(model.n_partitions_with_cells);
+    bytes.transfer(model.only_partition);
     bytes.transfer(model.remark);
   }
 

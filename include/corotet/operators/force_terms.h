@@ -7,8 +7,10 @@
 #include <corotet/discretization/discretization.h>
 #include <corotet/operators/force_term.h>
 
+#include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -31,6 +33,14 @@ namespace corotet
     /// "Boundary conditions/Traction on boundary 'x-max'".
     void
     add(std::unique_ptr<ForceTerm> term, const std::string &name = "");
+
+    /// Terms that are added from now on are those of programs that use the
+    /// library: derivative_errors() looks at them.
+    void
+    terms_of_programs_follow()
+    {
+      first_of_programs = terms.size();
+    }
 
     /// Removes damping terms, for statics and modes, but keeps their names.
     void
@@ -156,6 +166,15 @@ namespace corotet
                         const double  velocity_factor,
                         const Tangent tangent) const;
 
+    /// How far the derivatives that terms of programs give differ from those by
+    /// finite differences, relative to the larger one [-], with the terms'
+    /// names: (df/du + @p velocity_factor df/dv) w at @p motion. Ghost entries
+    /// of w are up to date.
+    std::vector<std::pair<std::string, double>>
+    derivative_errors(const Motion &motion,
+                      const Vector &w,
+                      const double  velocity_factor);
+
     /// Whether the derivatives that belong to that tangent are symmetric.
     bool
     is_symmetric(const Tangent tangent) const;
@@ -177,6 +196,8 @@ namespace corotet
 
     const Discretization                   &discretization;
     std::vector<std::unique_ptr<ForceTerm>> terms;
+    /// The number of the first term of programs, if there is one.
+    std::size_t first_of_programs = std::numeric_limits<std::size_t>::max();
     /// The name of each term, or an empty text.
     std::vector<std::string> names;
     /// Names of the damping terms that have been left out.

@@ -110,8 +110,8 @@ namespace corotet
     Elasticity                                      elasticity;
     const PrescribedMotion                          motion;
 
-    /// Whether all its cells are known to be connected, so that nobody need
-    /// look for its parts.
+    /// Whether it is known to have one of the ConnectedParts only, so that
+    /// nobody need look for them.
     bool is_one_piece = false;
 
   private:

@@ -34,11 +34,11 @@ namespace corotet
 
   /**
    * Warns of forces that cannot act: of loads and supports whose force is on
-   * nodes alone that other supports hold or move, and of damping in statics.
-   * Collective.
+   * nodes alone that other supports hold or move, and of damping in statics;
+   * and of forces of programs whose derivatives are wrong. Collective.
    */
   void
-  warn_of_forces(const EquationOfMotion     &equation,
+  warn_of_forces(EquationOfMotion           &equation,
                  const SimulationParameters &parameters,
                  Log                        &log);
 

@@ -371,8 +371,8 @@ namespace corotet
     double  n_planned  = 0;
     /// Largest energy that went into the body [J].
     double energy_supply = 0;
-    /// The energy balance of dynamics that was worst so far [J]: the largest
-    /// gain, or in explicit steps without moving supports the largest loss.
+    /// The energy balance that was farthest from zero so far [J], in explicit
+    /// steps without moving supports.
     double worst_balance = 0;
     /// The largest ratio of the energy of the fastest mode in an explicit run
     /// to the energy put into it [-].
