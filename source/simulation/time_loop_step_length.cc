@@ -140,23 +140,19 @@ namespace corotet
   AccelerationSolver::LargestFrequencies
   TimeLoop::largest_frequencies()
   {
-    try
-      {
-        return system.acceleration_solver().largest_frequencies(present,
-                                                                time(done));
-      }
-    catch (const ComputationError &error)
-      {
-        if (done == 0)
-          throw;
-        throw ComputationError(
-          fmt::format("{}; does the body become stiffer quickly? Then {} must "
-                      "be smaller",
-                      error.what(),
-                      n_steps > 0 ? "'Time step'" :
-                                    "'Steps between estimates' or 'Safety "
-                                    "factor'"));
-      }
+    EquationOfMotion &equation = system.equation();
+    equation.set_state(present);
+    // The tangent of a state without finite energy has no eigenvalues.
+    if (done > 0 &&
+        !std::isfinite(body.elasticity.state(equation.displacement()).energy))
+      throw ComputationError(fmt::format(
+        "the energy is not finite{}; does the body become stiffer quickly? "
+        "Then {} must be smaller",
+        equation.why_not_finite(),
+        n_steps > 0 ? "'Time step'" :
+                      "'Steps between estimates' or 'Safety factor'"));
+    return system.acceleration_solver().largest_frequencies(present,
+                                                            time(done));
   }
 
   void
