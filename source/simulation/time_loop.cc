@@ -164,8 +164,15 @@ namespace corotet
       }
     begin_budget();
     const StepRecord &record = budget->initial_record();
-    // The kinetic energy between steps may be negative.
-    energy_supply = std::max(record.kinetic_energy + record.elastic_energy, 0.);
+    // Round-off makes strains of up to 1e-10 in a body without loads that turns
+    // or has turned; with less energy than theirs nothing is told. The kinetic
+    // energy between steps may be negative.
+    constexpr double strain  = 1e-10;
+    double           modulus = 0;
+    for (const auto &[region, material] : body.materials)
+      modulus = std::max(modulus, material.lambda + 2 * material.mu);
+    energy_supply = std::max(record.kinetic_energy + record.elastic_energy,
+                             modulus * record.volume * strain * strain);
     keep_state();
     return record;
   }

@@ -117,8 +117,8 @@ namespace corotet
 
   /**
    * A text that lists the bodies, by their places and regions, if there are
-   * several that have no node in common. Empty otherwise. The same on any
-   * number of ranks. Collective.
+   * several that have no node in common: each is one of @p parts, or some that
+   * have joints. Empty otherwise. The same on any number of ranks. Collective.
    */
   std::string
   unconnected_parts(const Discretization &discretization,

@@ -31,10 +31,15 @@ namespace corotet
   void
   check_mesh(SerialMesh &mesh, const unsigned int element_degree = 3);
 
-  /// The part of check_mesh() that checks coordinates and indices of vertices
-  /// and of the nodes of curved cells.
+  /// The part of check_mesh() that checks coordinates and indices of vertices,
+  /// with check_curves().
   void
   check_vertices(const SerialMesh &mesh);
+
+  /// The part of check_mesh() that checks that each curved cell has the nodes
+  /// of one map, finite and the first four the cell's vertices.
+  void
+  check_curves(const MeshCells &mesh, const std::string &origin);
 
   /// The part of check_mesh() that checks volumes and folds, for a mesh that is
   /// spread over the ranks. Returns the result of check_curved_cells().

@@ -98,12 +98,6 @@ namespace corotet
                            const std::vector<std::uint32_t> &cells,
                            const unsigned int                degree);
 
-  /// Throws InputError, as check_mesh() does, unless each curved cell of @p
-  /// mesh has the nodes of one map, finite and the first four the cell's
-  /// vertices.
-  void
-  check_curves(const MeshCells &mesh, const std::string &origin);
-
   /**
    * The smallest determinant of the Jacobian of curved cells divided by its
    * mean in the cell [-]: 1 for a straight cell; infinity if no cell is curved.

@@ -93,8 +93,8 @@ namespace corotet
     bool
     has_stiff_damping() const;
 
-    /// Whether any term depends on the velocity whose derivative is neither one
-    /// of the body's matrices nor of the surface.
+    /// Whether any term depends on the velocity in another way than by the
+    /// body's matrices or a matrix of the surface.
     bool
     has_other_velocity_forces() const;
 

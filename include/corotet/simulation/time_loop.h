@@ -369,7 +369,7 @@ namespace corotet
     Failure failure    = {0, 0.};
     bool    has_warned = false;
     double  n_planned  = 0;
-    /// Largest energy that went into the body [J].
+    /// Largest energy that went into the body, at least its round-off [J].
     double energy_supply = 0;
     /// The energy balance that was farthest from zero so far [J], in explicit
     /// steps without moving supports.
