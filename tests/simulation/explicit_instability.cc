@@ -78,7 +78,7 @@ TEST(ExplicitInstability, RoundOffIsNone)
                       section("Time integration",
                               {{"Type", "central difference"},
                                {"Time step", 0},
-                               {"End time", 10}}));
+                               {"End time", 50}}));
       EXPECT_EQ(run.run(), "") << law;
       for (const std::string &warning : warnings(run))
         EXPECT_EQ(warning.find("energy_balance"), std::string::npos) << warning;
