@@ -19,7 +19,7 @@ from vtkmodules.vtkIOGeometry import vtkSTLWriter
 from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
 
 from commands import FIRST_COLUMNS, MARK, WrongInput
-from fields import choose_arrays, choose_field, components, mean_of_cells
+from fields import choose_arrays, choose_field, components, limits_of, mean_of_cells
 from lagrange import Surface, inside
 
 LAGRANGE_TETRAHEDRON = 71
@@ -73,8 +73,7 @@ class Source:
         return self.colour_field.is_number_of_something()
 
     def colour_range(self):
-        ends = [(values.min(), values.max()) for values in map(self.colour_values, self.states)]
-        return min(low for low, _ in ends), max(high for _, high in ends)
+        return limits_of(self.colour_field.name, map(self.colour_values, self.states))
 
 
 def colours_of(values, limits):

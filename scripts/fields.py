@@ -28,6 +28,14 @@ def with_prefix(largest, unit):
     return 1 / size, prefix + unit
 
 
+def limits_of(name, values_of_states):
+    """The least and the largest value of a field in all states. Throws WrongInput if there are values that are not finite."""
+    ends = np.array([(values.min(), values.max()) for values in values_of_states])
+    if not np.isfinite(ends).all():
+        raise WrongInput(f"{name} is not finite in the states asked for")
+    return ends[:, 0].min(), ends[:, 1].max()
+
+
 def components(name, n):
     """Names of the components of an array with n components; an empty list if it is a scalar."""
     if name.startswith("principal"):

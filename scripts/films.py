@@ -40,7 +40,7 @@ def palette_of(frames):
 def write_gif(frames, path, fps):
     palette = palette_of(frames)
     first, *others = (image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images(frames))
-    first.save(path, format="GIF", save_all=True, append_images=others, duration=max(20, 10 * round(100 / fps)), loop=0, optimize=False, comment=MARK)
+    first.save(path, format="GIF", save_all=True, append_images=others, duration=10 * round(100 / fps), loop=0, optimize=False, comment=MARK)
 
 
 def write_webp(frames, path, fps):

@@ -6,7 +6,7 @@ import dataclasses
 
 import numpy as np
 
-from fields import choose_field, choose_warp, mean_of_cells, with_prefix
+from fields import choose_field, choose_warp, limits_of, mean_of_cells, with_prefix
 from lagrange import Surface, inside
 from commands import WrongInput, is_number
 from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
@@ -63,10 +63,7 @@ class Pictures:
         return self.field.of_cells and (self.options.cells or self.field.is_number_of_something())
 
     def make_legend(self):
-        ends = [(values.min(), values.max()) for values in map(self.values, self.states)]
-        least, largest = min(low for low, _ in ends), max(high for _, high in ends)
-        if not np.isfinite([least, largest]).all():
-            raise WrongInput(f"{self.field.name} is not finite in the states asked for")
+        least, largest = limits_of(self.field.name, map(self.values, self.states))
         factor, unit = with_prefix(max(abs(least), abs(largest)), self.field.unit)
         low, high = self.options.range or (factor * least, factor * largest)
         title = self.field.title + (f" [{unit}]" if unit else "")

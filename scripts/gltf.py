@@ -170,7 +170,7 @@ def swing(buffer, run, modes, seconds):
 
 
 def write_glb(path, document, buffer):
-    text = json.dumps(document, separators=(",", ":")).encode()
+    text = json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
     with open(path, "wb") as file:
         file.write(struct.pack("<4sII", b"glTF", 2, 28 + len(text) + buffer.size))

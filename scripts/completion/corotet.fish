@@ -20,7 +20,7 @@ set --local run "not __fish_seen_subcommand_from mesh"
 set --local mesh "__fish_seen_subcommand_from mesh"
 
 complete -c corotet -n __fish_use_subcommand -a mesh -d "Read or make a mesh, check it, and describe it"
-complete -c corotet -l help -d "Print help and exit"
+complete -c corotet -s h -l help -d "Print help and exit"
 complete -c corotet -n $run -l version -d "Print versions and exit"
 complete -c corotet -n $run -l set -x -a "(__corotet_entries)" -d "Override an entry"
 complete -c corotet -n $run -l output -x -a "(__fish_complete_directories)" -d "Override the output directory"

@@ -5,7 +5,7 @@
 import re
 
 # Units of columns of history.csv: (regular expression for the name, unit). The first expression that fits counts.
-UNITS = (("(time|dt|(.*_)?time|time_step)", "s"), (".*energy|external_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
+UNITS = (("dt|(.*_)?time(_step)?", "s"), (".*energy|external_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
          ("momentum_[xyz]", "kg m/s"), ("(internal|.*_reaction)_moment_[xyz]", "N m"), ("(.*_)?reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
          (".*_stress_[xyz][xyz]|.*_von_mises", "Pa"), ("max_displacement|.*_[xyz]", "m"))
 # Units of names in modes.csv, study.csv and summary.json that UNITS does not give, or gives wrongly.

@@ -42,6 +42,11 @@ class Run:
         return self.folder.resolve().name
 
     @property
+    def is_modal(self):
+        """Whether modes were computed, by a run or by those of a study."""
+        return self.kind == "modes" or self.kind == "study" and self.parameters.get("Convergence study/Run") == "modes"
+
+    @property
     def is_static(self):
         return self.kind == "simulation" and self.parameters.get("Time integration/Type") == "static"
 

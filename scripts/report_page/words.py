@@ -103,7 +103,7 @@ def conditions(run):
         yield "Exact solution", f"u = <code>{escape(exact)}</code> m" + ("; loads, supports and initial state are made from it" if made else "")
     if supports or not exact:
         yield "Supports", supports or "none: the body is free"
-    if run.kind == "modes":
+    if run.is_modal:
         return
     loads = [f"{name} {vector(entry(path), unit)}"
              for name, path, unit in (("gravity", "Loads/Gravity", "m/s²"), ("body force", "Loads/Body force", "N/m³"))
@@ -129,7 +129,7 @@ def conditions(run):
 def methods(run):
     entry = run.entry
     kind = entry("Time integration/Type")
-    if run.kind != "modes" and not run.is_static:
+    if not run.is_modal and not run.is_static:
         if entry("Time integration/Adaptive step/Enabled") == "true":
             step = f"steps chosen for an error of {value(entry('Time integration/Adaptive step/Target error'))}"
         elif is_zero(entry("Time integration/Time step")):

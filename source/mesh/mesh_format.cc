@@ -88,7 +88,8 @@ namespace corotet
       const std::size_t i = line.find_first_not_of(" \t\r");
       if (i == std::string::npos)
         return "";
-      return upper_case(line.substr(i, line.find_first_of(" \t\r,*=", i) - i));
+      return upper_case(
+        line.substr(i, line.find_first_of(" \t\r,*='\"", i) - i));
     }
 
 

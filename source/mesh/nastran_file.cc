@@ -201,6 +201,10 @@ namespace corotet
         else if (other_solids.contains(card.name))
           card.place.refuse("cells other than tetrahedra: found " + card.name +
                             "; allowed is CTETRA");
+        else if (card.name.starts_with('='))
+          card.place.refuse(
+            "cards that repeat others (=) are not read; allowed "
+            "is each card written out");
         else if (card.name == "BEGIN BU")
           // The statements before are not cards of the bulk data.
           left_out.clear();

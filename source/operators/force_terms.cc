@@ -250,6 +250,14 @@ namespace corotet
   }
 
   bool
+  ForceTerms::has_springs() const
+  {
+    return any_of(terms, [](const ForceTerm &term) {
+      return term.has_surface_matrix() && term.depends_on_displacement();
+    });
+  }
+
+  bool
   ForceTerms::has_surface_damping() const
   {
     return any_of(terms, [](const ForceTerm &term) {
@@ -281,7 +289,7 @@ namespace corotet
   ForceTerms::springs(const ReferenceElement &reference,
                       const double            time) const
   {
-    if (!has_surface_matrix())
+    if (!has_springs())
       return nullptr;
     auto S = std::make_unique<SurfaceMatrix>(discretization, reference);
     surface_matrix(*S, time, 1., 0.);

@@ -59,13 +59,15 @@ namespace corotet
 
   ModesWriter::ModesWriter(const OutputParameters &parameters,
                            const std::string      &directory,
-                           ModalAnalysis          &analysis)
+                           ModalAnalysis          &analysis,
+                           Log                    &log)
     : directory(directory)
     , analysis(analysis)
-    , probes(parameters.probe_points(), analysis.body().discretization)
+    , probes(parameters.probe_points(), analysis.body().discretization, &log)
     , stress_probes(parameters.stress_probe_points(),
                     analysis.body().discretization,
-                    parameters.raw_stress_at_probes)
+                    parameters.raw_stress_at_probes,
+                    &log)
     , stress(analysis.body().stress_field())
     , with_stress_at_nodes(parameters.has_stress_at_nodes())
     , with_stress_at_points(parameters.has_stress_at_points())

@@ -82,10 +82,10 @@ namespace corotet
                                          const double time,
                                          const double velocity_factor)
   {
-    if (velocity_factor == 0 || !equation.terms.has_damping())
+    if (velocity_factor == 0 || !equation.terms.depends_on_velocity())
       return solve(state, time, velocity_factor);
-    // Damping needs the velocities of one moment at all unknowns: prescribed
-    // ones come with the next velocity, free ones with that before it.
+    // Forces need the velocities of one moment at all unknowns: prescribed ones
+    // come with the next velocity, free ones with that before it.
     add_to_supports(state.v, -velocity_factor, state.a);
     const StageReport report = solve(state, time, velocity_factor);
     add_to_supports(state.v, velocity_factor, state.a);
@@ -264,6 +264,8 @@ namespace corotet
     // the exact tangent is softer, and not to that of springs.
     tangent      = Tangent::frozen_rotation;
     is_supported = false;
+    if (!elasticity.is_by_cell(tangent))
+      elasticity.linearize(equation.displacement(), tangent);
     return {all, std::sqrt(largest_eigenvalue(pencil, start, tolerance))};
   }
 } // namespace corotet

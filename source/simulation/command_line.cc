@@ -117,7 +117,7 @@ namespace corotet
     add_run_options(CLI::App &app, CommandLine &command_line)
     {
       app.allow_extras();
-      app.set_help_flag("--help", "Print this and exit");
+      app.set_help_flag("-h,--help", "Print this and exit");
       app.set_version_flag("--version",
                            version_message(),
                            "Print versions, exit");
@@ -178,7 +178,7 @@ namespace corotet
                            "Read or make a mesh, check it, and describe it: "
                            "shapes of cells, names with volumes and areas");
       command->allow_extras();
-      command->set_help_flag("--help", "Print this and exit");
+      command->set_help_flag("-h,--help", "Print this and exit");
       command->add_option("FILE", mesh.file, "A mesh or a geometry");
       command
         ->add_option("--size",

@@ -9,6 +9,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <limits>
 
 namespace corotet
 {
@@ -54,6 +55,7 @@ namespace corotet
     last.carried.resize(n_prescribed);
     last.velocity.resize(n_prescribed);
     support_force_list.resize(n_prescribed);
+    support_forces_before.resize(n_prescribed);
     if (equation.is_dynamic)
       body.discretization.initialize_vector(momentum);
     end_step(initial_state);
@@ -74,6 +76,8 @@ namespace corotet
     at_rest.u     = 0;
     equation.evaluate(at_rest, time, load);
     end_step(at_rest);
+    // A step that fails is tried again from the guess.
+    last.displacement = guess.u;
     equation.evaluate(guess, time, load);
     began_unloaded          = true;
     is_unloaded             = true;
@@ -155,6 +159,10 @@ namespace corotet
     archive.transfer("is_unloaded", is_unloaded);
     archive.within("initial", [&] { initial.transfer(archive); });
     archive.within("last", [&] { transfer_forces(archive, last); });
+    // The forces of supports are not stored; they are those of the next record.
+    if (archive.is_reading())
+      for (SupportForce &support : support_force_list)
+        support.force = std::numeric_limits<double>::quiet_NaN();
   }
 
   void
@@ -214,6 +222,7 @@ namespace corotet
     dt          = before[0];
     work        = before[1];
     dissipation = before[2];
+    support_force_list.swap(support_forces_before);
   }
 
   void
@@ -247,6 +256,7 @@ namespace corotet
     };
 
     // Reactions and moments are those where the equation of motion holds.
+    support_force_list.swap(support_forces_before);
     record.reaction = Tensor<1, 3>();
     for (std::size_t k = 0; k < support_force_list.size(); ++k)
       {

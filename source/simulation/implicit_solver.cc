@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/implicit_solver.h>
-#include <corotet/solvers/singular_matrix_error.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 #include <deal.II/base/scope_exit.h>
 

@@ -3,7 +3,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/modal_analysis.h>
-#include <corotet/solvers/singular_matrix_error.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -194,6 +194,8 @@ namespace corotet
     };
     archive.within("wall_time", [&] {
       add_time("setup", wall_times.setup);
+      add_time("read", wall_times.read);
+      add_time("partition", wall_times.partition);
       add_time("assembly", wall_times.assembly);
       add_time("solve", wall_times.solve);
       add_time("output", wall_times.output);

@@ -75,10 +75,9 @@ namespace corotet
   }
 
   StageReport
-  TimeLoop::solve_first_acceleration()
+  TimeLoop::solve_first_acceleration(double dt)
   {
     const double start_time = parameters.start_time;
-    double       dt = end_of_step(1) * (parameters.end_time - start_time);
     if (integrator->is_explicit())
       return solve_first_half_step(0.5 * dt);
     if (!starts_from_mean_acceleration())
@@ -104,18 +103,39 @@ namespace corotet
       system.equation().evaluate(present,
                                  parameters.start_time,
                                  integrator->load_factor(0.));
-    budget = std::make_unique<EnergyBudget>(
-      system.equation(),
-      present,
-      parameters.start_time,
-      integrator->is_staggered() ?
-        end_of_step(1) * (parameters.end_time - parameters.start_time) :
-        0.);
+    budget = std::make_unique<EnergyBudget>(system.equation(),
+                                            present,
+                                            parameters.start_time,
+                                            integrator->is_staggered() ?
+                                              duration(end_of_step(1)) :
+                                              0.);
+  }
+
+  void
+  TimeLoop::check(const OutputTimes &wanted) const
+  {
+    const double interval = wanted.time_between_results;
+    const double duration = parameters.end_time - parameters.start_time;
+    if (n_steps > 0 || interval == 0 ||
+        duration / interval <= largest_number_of_steps)
+      return;
+    throw InputError(
+      "Output/Time between results",
+      fmt::format("found {}, which makes {:.4g} steps from t = {} to {}, as "
+                  "steps end at its multiples; allowed: at most {} steps, so "
+                  "at least {:.6g}",
+                  interval,
+                  duration / interval,
+                  parameters.start_time,
+                  parameters.end_time,
+                  largest_number_of_steps,
+                  duration / largest_number_of_steps));
   }
 
   const StepRecord &
   TimeLoop::start(const OutputTimes &wanted)
   {
+    check(wanted);
     recording               = wanted;
     const double start_time = parameters.start_time;
     if (const double interval = recording.time_between_results;
@@ -123,19 +143,7 @@ namespace corotet
       {
         // Steps end at results, so they may be shorter and more than planned.
         const double duration = parameters.end_time - start_time;
-        if (!(duration / interval <= largest_number_of_steps))
-          throw InputError(
-            "Output/Time between results",
-            fmt::format("found {}, which makes {:.4g} steps from t = {} to {}, "
-                        "as steps end at its multiples; allowed: at most {} "
-                        "steps, so at least {:.6g}",
-                        interval,
-                        duration / interval,
-                        start_time,
-                        parameters.end_time,
-                        largest_number_of_steps,
-                        duration / largest_number_of_steps));
-        const double length = adaptive ? adaptive->length() : step_length;
+        const double length   = adaptive ? adaptive->length() : step_length;
         if (interval < length)
           log.line(fmt::format("Steps of at most {:.6g} s, as they end at "
                                "multiples of 'Output/Time between results'",
@@ -147,7 +155,8 @@ namespace corotet
     if (integrator->is_dynamic())
       {
         system.prescribe(present, start_time, 1.);
-        const StageReport report = solve_first_acceleration();
+        const StageReport report =
+          solve_first_acceleration(duration(end_of_step(1)));
         if (integrator->is_explicit() && !body.mass.is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",
@@ -231,10 +240,11 @@ namespace corotet
   bool
   TimeLoop::next(StepRecord &record, const Interruption &interruption)
   {
-    StepRecord next    = is_between_records ? unrecorded : record;
-    is_between_records = false;
+    StepRecord next = is_between_records ? unrecorded : record;
     // The record of the state that is left if a step fails.
     StepRecord good = integrator->is_explicit() ? record : next;
+    if (!std::exchange(is_between_records, false))
+      next.clamped_cells = 0;
     const auto stay = [&](const StepRecord &reached) {
       unrecorded         = reached;
       is_between_records = true;

@@ -15,6 +15,7 @@ namespace corotet
                    Archive           &archive,
                    const StepRecord  &record)
   {
+    check(wanted);
     recording = wanted;
     integrator->reset();
     system.equation().evaluate(present,

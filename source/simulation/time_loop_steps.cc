@@ -6,7 +6,7 @@
 
 #include <corotet/base/exceptions.h>
 #include <corotet/simulation/time_loop.h>
-#include <corotet/solvers/singular_matrix_error.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 #include <fmt/format.h>
 
@@ -105,7 +105,7 @@ namespace corotet
           integrator->is_dynamic() &&
           (time() >= time(middle) || time(middle) >= time(to));
         const bool is_final =
-          is_unstable || is_singular_for_good(error) || is_swallowed;
+          is_unstable || meets_same_matrix(error) || is_swallowed;
         restore_state();
         if (halvings_left == 0 || is_final)
           {
@@ -119,18 +119,29 @@ namespace corotet
         announce_half(to, error);
         parts_left.back().halvings_left = halvings_left - 1;
         parts_left.push_back({middle, halvings_left - 1});
+        begin_anew_if_first(middle);
       }
   }
 
   bool
-  TimeLoop::is_singular_for_good(const ComputationError &error) const
+  TimeLoop::meets_same_matrix(const ComputationError &error) const
   {
-    if (dynamic_cast<const SingularMatrixError *>(&error) == nullptr ||
+    if (dynamic_cast<const LinearSolverError *>(&error) == nullptr ||
         integrator->is_dynamic())
       return false;
     Vector difference(present.u);
     difference -= budget->last_displacement();
     return body.law->is_linear() || norm(difference) == 0;
+  }
+
+  void
+  TimeLoop::begin_anew_if_first(const double to)
+  {
+    if (done > 0 || !starts_from_mean_acceleration())
+      return;
+    solve_first_acceleration(duration(to));
+    begin_budget();
+    keep_state();
   }
 
   void
@@ -168,7 +179,7 @@ namespace corotet
                                  body.root_mean_square(acceleration_change);
             const double size =
               body.size_of_motion(present.u,
-                                  system.equation().terms.has_surface_matrix());
+                                  system.equation().terms.has_springs());
             if (adaptive->accept(dt, error, size))
               {
                 finish_step(done, to, record);
@@ -189,13 +200,7 @@ namespace corotet
           }
         rejected = to;
         restore_state();
-        if (done == 0 && starts_from_mean_acceleration())
-          {
-            // The mean acceleration is that of a first step of this length.
-            solve_first_acceleration();
-            begin_budget();
-            keep_state();
-          }
+        begin_anew_if_first(end_of_step(1));
         warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
                       adaptive->length());
       }
@@ -281,8 +286,12 @@ namespace corotet
       std::abs(record.kinetic_energy) + record.elastic_energy;
     const bool is_visible = record.max_displacement >
                             1e-3 * std::cbrt(budget->initial_record().volume);
-    energy_supply = std::max(energy_supply,
-                             std::abs(record.external_work) +
+    // Forces of programs that depend on the velocity may drive the body.
+    const double driven = system.equation().terms.has_other_velocity_forces() ?
+                            std::max(-record.dissipated_energy, 0.) :
+                            0.;
+    energy_supply       = std::max(energy_supply,
+                             std::abs(record.external_work) + driven +
                                std::abs(budget->kinetic_energy_of_supports()));
     // Stable steps of methods that keep the energy lose none that is not
     // accounted for, unless supports move fast: an unstable motion may lose
@@ -332,6 +341,8 @@ namespace corotet
   TimeLoop::complete(StepRecord &record)
   {
     budget->record(record, present, time(done));
-    record.clamped_cells = system.implicit_solver().take_clamped_cells();
+    record.clamped_cells =
+      std::max(record.clamped_cells,
+               system.implicit_solver().take_clamped_cells());
   }
 } // namespace corotet

@@ -4,7 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/operators/tangent_operator.h>
 #include <corotet/solvers/direct.h>
-#include <corotet/solvers/singular_matrix_error.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 namespace corotet
 {

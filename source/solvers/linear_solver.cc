@@ -4,6 +4,7 @@
 #include <corotet/base/exceptions.h>
 #include <corotet/base/negligible.h>
 #include <corotet/solvers/linear_solver.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 #include <fmt/format.h>
 
@@ -212,7 +213,7 @@ namespace corotet
         if (!first_solve)
           // Perhaps only the preconditioner was outdated.
           return solve(A, x, b, displacement, J, limit, loosest);
-        throw ComputationError(fmt::format(
+        throw LinearSolverError(fmt::format(
           "the linear solver stopped after {} iterations at a relative "
           "residual of {:.3g}; required is {:.3g} within {} iterations",
           failure.last_step,

@@ -3,8 +3,8 @@
 
 #include <corotet/base/mpi.h>
 #include <corotet/solvers/cholmod_factor.h>
+#include <corotet/solvers/linear_solver_errors.h>
 #include <corotet/solvers/scaling.h>
-#include <corotet/solvers/singular_matrix_error.h>
 #include <corotet/solvers/sparse_cholesky.h>
 
 #include <deal.II/base/mpi.h>

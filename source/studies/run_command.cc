@@ -236,7 +236,7 @@ namespace corotet
         parameters.verification.initialize(
           column_names(modes_example(parameters.output)));
         ModalAnalysis analysis(parameters.simulation, file.folder(), comm, log);
-        ModesWriter   writer(parameters.output, directory, analysis);
+        ModesWriter   writer(parameters.output, directory, analysis, log);
         record("modes.csv", false, [&] {
           log.open(directory + "/log.txt");
           write_parameters();
@@ -265,21 +265,21 @@ namespace corotet
                      simulation.planned_steps(),
                      simulation.end_time() - simulation.start_time(),
                      log);
-        const nlohmann::ordered_json      values = file.values();
-        Checkpoints                       checkpoints(parameters.checkpoint,
+        const nlohmann::ordered_json values = file.values();
+        Checkpoints                  checkpoints(parameters.checkpoint,
                                 directory,
                                 directory + "/log.txt",
                                 values,
                                 simulation.body(),
                                 log);
-        std::unique_ptr<CheckpointReader> checkpoint;
-        if (command.restart)
-          checkpoint = take_checkpoint(checkpoints);
+        const auto                   checkpoint =
+          command.restart ? take_checkpoint(checkpoints) : nullptr;
         const OutputTimes times{output.steps_between_rows,
                                 output.time_between_results};
         const std::vector<std::unique_ptr<Observer>> no_files;
-        if (checkpoint && command.validate)
-          // Restarting may throw.
+        if (!checkpoint)
+          simulation.check(times);
+        else if (command.validate)
           simulation.resume(no_files, times, *checkpoint);
         record("history.csv", checkpoint != nullptr, [&] {
           if (checkpoint)

@@ -83,12 +83,14 @@ namespace corotet
                                simulation->start_time(),
                                simulation->end_time(),
                                log);
+    const OutputTimes times{output.steps_between_rows,
+                            output.time_between_results};
+    simulation->check(times);
     lock.emplace(directory, comm, log);
     prepare_output_directory(directory, output.overwrite, comm);
     log.open(directory + "/log.txt");
     on_root(comm, [&] { file.write_effective(directory + "/parameters.prm"); });
-    simulation->start(observers,
-                      {output.steps_between_rows, output.time_between_results});
+    simulation->start(observers, times);
   }
 
   namespace

@@ -391,7 +391,9 @@ namespace corotet
                                          shortened(quantity.name),
                                          join(names)));
           }
-        result.push_back(values.at(quantity.name).get<double>());
+        // A value that is not a number has become null in a checkpoint.
+        const Json &value = values.at(quantity.name);
+        result.push_back(value.is_null() ? NAN : value.get<double>());
       }
     return result;
   }

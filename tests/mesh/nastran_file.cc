@@ -148,6 +148,19 @@ TEST_F(NastranFile, LeftoversAndDuplicates)
             "part.bdf:12: a CTETRA has 4 or 10 nodes: found '3' behind them");
 }
 
+// Statements without which a part of the mesh would be missing.
+TEST_F(NastranFile, RefusesWhatWouldBeMissing)
+{
+  for (const std::string name : {"INCLUDE 'nodes.bdf'", "INCLUDE'nodes.bdf'"})
+    EXPECT_EQ(message(start + nodes + cell + name + "\n" + end),
+              "part.bdf:7: other files are not read: found INCLUDE; allowed is "
+              "one file with the whole mesh");
+  for (const std::string card : {"=,*1,=,*1.,==", "=       *1      "})
+    EXPECT_EQ(message(start + nodes + cell + card + "\n" + end),
+              "part.bdf:7: cards that repeat others (=) are not read; allowed "
+              "is each card written out");
+}
+
 // The log says which cards are not read, and which parts are known by their
 // numbers only.
 TEST_F(NastranFile, Remarks)

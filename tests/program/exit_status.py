@@ -25,7 +25,7 @@ class ExitStatus(ProgramTest):
     def run_small(self, *settings, **others):
         overrides = [word for setting in (*SMALL, *settings) for word in ("--set", setting)]
         arguments = [ROOT / "parameters" / "cantilever.prm", *overrides]
-        return self.run_program(*arguments, "--output", others.pop("output", "results"), **others)
+        return self.run_program(*arguments, "--output", others.pop("output", "results"), *others.pop("words", ()), **others)
 
     def check_message(self, run, *parts):
         self.assertEqual(run.stderr.count("\n"), 1, run.stderr)
@@ -130,6 +130,13 @@ class ExitStatus(ProgramTest):
         before = fingerprint(self.folder)
         run = self.run_small(short, status=1)
         self.check_message(run, "results")
+        self.assertEqual(fingerprint(self.folder), before)
+
+        # Nor are they replaced if the input is wrong.
+        for words in ((), ("--validate",)):
+            run = self.run_small("Output/Overwrite = true", "Output/Time between results = 1e-12", "Time integration/Type = central difference",
+                                 "Time integration/Time step = 0", words=words, status=1)
+            self.check_message(run, "Output/Time between results: found 1e-12, which makes")
         self.assertEqual(fingerprint(self.folder), before)
 
         # On request results are replaced, but nothing else is.

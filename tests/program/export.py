@@ -326,6 +326,16 @@ class Export(ScriptTest):
         last = np.array(points.Get(points.GetTimeSamples()[-1]))
         np.testing.assert_allclose(np.ptp(last, axis=0), np.ptp(state_of(self.runs / "beam", -1).displaced(), axis=0), rtol=SINGLE)
 
+    def test_values_that_are_no_numbers(self):
+        """They are refused in any state, as colours and their limits would be wrong."""
+        shutil.copytree(self.runs / "beam", self.folder / "broken")
+        with h5py.File(self.folder / "broken" / "solution.vtkhdf", "r+") as file:
+            file["VTKHDF/CellData/det_F"][-1] = np.nan
+        self.check_mistakes([(("broken", "--to", form, "--field", "det_F", "--times", *times), "det_F is not finite in the states asked for")
+                             for form in ("gltf", "obj") for times in (("0", "0.3"), ("0.3",))])
+        self.start("broken", "--to", "gltf", "--field", "det_F", "--times", "0", "--out", "start.glb")
+        self.assertTrue((self.folder / "start.glb").exists())
+
     def test_mistakes(self):
         beam = self.runs / "beam"
         (self.folder / "empty").mkdir()

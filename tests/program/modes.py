@@ -119,6 +119,18 @@ class Modes(ProgramTest):
             run = self.run_program("bar.prm", "--output", f"on {stiffness}")
             self.assertEqual(run.stdout.count("as little as round-off: its frequency may be wrong"), n_warned)
 
+    def test_probe_on_a_curved_surface(self):
+        """A point of a sphere, which lies outside of straight cells, is moved
+        to them, as in simulations."""
+        (self.folder / "ball.geo").write_text('SetFactory("OpenCASCADE"); Sphere(1) = {0, 0, 0, 1}; Mesh.MeshSizeMax = 0.6;\n'
+                                              'Physical Volume("ball") = {1}; Physical Surface("skin") = {1};\n', encoding="utf-8")
+        (self.folder / "ball.prm").write_text(parameter_text({
+            "Type": "modes", "Mesh/Type": "file", "Mesh/file/File": "ball.geo", "Discretization/Degree": "1",
+            "Output/Probes": "tip: 0.57735 0.57735 0.57735", "Modes/Number": "7"}), encoding="utf-8")
+        for kind in ("simulation", "modes"):
+            run = self.run_program("ball.prm", "--validate", "--set", f"Type = {kind}")
+            self.assertRegex(run.stdout, r"Output/Probes: 'tip' is \S+ m outside the body: taken at \(")
+
     def test_overwrite(self):
         # Results of modes are replaced by those of a simulation, without
         # remains.

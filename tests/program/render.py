@@ -226,6 +226,7 @@ class Render(ScriptTest):
             *(((beam, f"--{name}", *words), f"argument --{name}: found {words[-1]}; allowed are numbers from -1e+50 to 1e+50")
               for name, words in (("range", ("0", "inf")), ("height", ("nan",)), ("position", ("0", "0", "1e300")), ("fps", ("nan",)))),
             ((beam, "--range", "1", "1"), "the first must be the lower one"), ((beam, "--fps", "0"), "found --fps 0; allowed are 0.01 to 100"),
+            ((beam, "--fps", "60", "--out", "film.gif"), "found --fps 60; allowed are 0.01 to 50"),
             ((beam, "--camera", "0", "nan", "0"), "found --camera 0 nan 0; allowed are"), ((beam, "--camera", "front-back"), "found --camera front-back"),
             ((beam, "--clip", "front", "0", "inf", "0"), "found --clip front 0 inf 0; allowed are"), ((beam, "--clip", "1e200", "0", "0"), "found --clip"),
             ((beam, "--up", "0", "0", "0"), "found --up 0 0 0; allowed are directions"),

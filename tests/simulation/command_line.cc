@@ -104,6 +104,8 @@ TEST(CommandLine, HelpNamesEveryOption)
                              "--version",
                              "--help"})
     EXPECT_NE(help.find(option), std::string::npos) << option << '\n' << help;
+  EXPECT_EQ(parse({"-h"}).message, help);
+  EXPECT_EQ(parse({"mesh", "-h"}).message, parse({"mesh", "--help"}).message);
 }
 
 TEST(CommandLine, VersionNamesProgramAndLibrary)

@@ -137,6 +137,39 @@ TEST(Halving, GivesUp)
             1e-10 * good.recorder().displacement.linfty_norm());
 }
 
+// With stiff damping the first step starts from its mean acceleration; if it is
+// halved, from that of the half.
+TEST(Halving, FirstStepWithStiffDamping)
+{
+  const auto run = [](const double step, const unsigned int max_iterations) {
+    return std::make_unique<FinishedRun>(
+      bar(time_integration("Newmark", 0.04, step), max_iterations, "5000") +
+      section("Damping", {{"Stiffness coefficient", 0.01}}));
+  };
+  const auto halved = run(0.04, 12), half = run(0.02, 50);
+  ASSERT_EQ(halved->message, "");
+  ASSERT_EQ(half->message, "");
+  EXPECT_EQ(halved->recorder().steps.front().parts, 2u);
+  EXPECT_LE(largest_difference(halved->recorder().displacement,
+                               half->recorder().displacement),
+            1e-9 * half->recorder().displacement.linfty_norm());
+}
+
+// A step from a guess that fails starts from the guess again, not from rest.
+TEST(Halving, StartsFromTheGuessAgain)
+{
+  const std::string text =
+    bar(statics(1, 1), 1, "5000") +
+    initial_conditions("0.05 * z; 0; -0.02 * x^2", "0; 0; 0");
+  MovingBody        guess(box("1, 0.1, 0.1", "5, 1, 1"), text);
+  const FinishedRun run(text);
+  EXPECT_NE(run.message.find("; the step has been halved 1 times"),
+            std::string::npos)
+    << run.message;
+  EXPECT_GT(guess.state.u.linfty_norm(), 0.01);
+  EXPECT_EQ(largest_difference(run.recorder().displacement, guess.state.u), 0.);
+}
+
 // Rows are written less often than steps: the last good step, which had no row,
 // gets one before the run ends.
 TEST(Halving, FailsBetweenRows)

@@ -25,10 +25,12 @@ using dealii::Tensor;
 namespace
 {
   void
-  solve_static(MovingBody &body)
+  solve_static(MovingBody &body, const double load_factor = 1)
   {
     LoadStepping load_stepping;
-    load_stepping.step(body.system, {0., 1., 1.}, body.state);
+    load_stepping.step(body.system,
+                       {load_factor - 1, 1., load_factor},
+                       body.state);
   }
 
   struct Errors
@@ -143,6 +145,35 @@ TEST(Statics, PrescribedStretch)
   EXPECT_NEAR(record.max_displacement, 0.2, 1e-9);
   EXPECT_NEAR(record.min_det_F, 1.1, 1e-7);
   EXPECT_LE(record.reaction.norm(), 1e-6);
+}
+
+// A step whose record is taken back leaves the forces of supports of the one
+// before.
+TEST(Statics, ForcesOfSupportsAreTakenBack)
+{
+  MovingBody body(box("2, 1, 1", "4, 2, 2", 0.1),
+                  fixed("x-min") + tractions("x-max: 1; 2; -3"));
+  body.system.equation().evaluate(body.state, 0., 0.);
+  EnergyBudget budget(body.system.equation(), body.state, 0.);
+  StepRecord   record;
+  const auto   recorded_forces = [&](const double time) {
+    solve_static(body, time);
+    budget.add_work(body.state, time, 1.);
+    budget.record(record, body.state, time);
+    return budget.support_forces();
+  };
+  const auto first = recorded_forces(1.);
+  budget.end_step(body.state);
+  const auto second = recorded_forces(2.);
+  budget.take_back();
+  ASSERT_EQ(budget.support_forces().size(), first.size());
+  double largest = 0;
+  for (std::size_t k = 0; k < first.size(); ++k)
+    {
+      EXPECT_EQ(budget.support_forces()[k].force, first[k].force);
+      largest = std::max(largest, std::abs(second[k].force - first[k].force));
+    }
+  EXPECT_GT(dealii::Utilities::MPI::max(largest, MPI_COMM_WORLD), 0.01);
 }
 
 // A guess of the first state is not a state of the body: a linear body stores

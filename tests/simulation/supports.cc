@@ -8,7 +8,7 @@
 #include <corotet/base/mpi.h>
 #include <corotet/discretization/rigid_motions.h>
 #include <corotet/mesh/msh_file.h>
-#include <corotet/solvers/singular_matrix_error.h>
+#include <corotet/solvers/linear_solver_errors.h>
 
 #include <gtest/gtest.h>
 
@@ -197,5 +197,35 @@ TEST(Supports, SingularMatrixEndsStatics)
                 "can move without resistance, because not enough is "
                 "prescribed")
         << law;
+    }
+}
+
+// Nor do shorter load steps help a solver that needs more iterations than are
+// allowed.
+TEST(Supports, SolverThatStopsEndsStatics)
+{
+  for (const std::string law : {"linear", "corotational"})
+    {
+      MovingBody body(
+        box("1, 1, 1", "2, 2, 2"),
+        material_type(law) + fixed("x-min") + tractions("x-max: 1; 0; 0") +
+          section("Linear solver",
+                  {{"Type", "jacobi"}, {"Maximum iterations", 2}}) +
+          statics());
+      TimeLoop    stepper(body.parameters, body.system, body.log);
+      StepRecord  record = stepper.start({});
+      std::string message;
+      try
+        {
+          stepper.next(record);
+        }
+      catch (const LinearSolverError &error)
+        {
+          message = error.what();
+        }
+      EXPECT_EQ(message.find("the linear solver stopped after 2 iterations"),
+                0u)
+        << law << ": " << message;
+      EXPECT_EQ(message.find("halved"), std::string::npos) << message;
     }
 }

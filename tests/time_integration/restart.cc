@@ -17,7 +17,14 @@ using namespace corotet::tests;
 
 namespace
 {
-  // Makes the steps first ... end - 1, which are unequal.
+  // The start of a step; steps are unequal.
+  double
+  start_of(const unsigned int i)
+  {
+    return 0.1 * i + 0.003 * i * i;
+  }
+
+  // Makes the steps first ... end - 1.
   void
   make_steps(TimeIntegrator    &integrator,
              Oscillator        &system,
@@ -25,12 +32,11 @@ namespace
              const unsigned int first,
              const unsigned int end)
   {
-    const auto time = [](const unsigned int i) {
-      return 0.1 * i + 0.003 * i * i;
-    };
     for (unsigned int i = first; i < end; ++i)
       integrator.step(system,
-                      {time(i), time(i + 1) - time(i), (i + 1.) / end},
+                      {start_of(i),
+                       start_of(i + 1) - start_of(i),
+                       (i + 1.) / end},
                       state);
   }
 } // namespace
@@ -63,6 +69,34 @@ TEST(TimeIntegrator, GoesOnWithWhatItKept)
       make_steps(*restarted, system, other, 5, 9);
       EXPECT_EQ(other.u.local_element(0), state.u.local_element(0)) << name;
       EXPECT_EQ(other.v.local_element(0), state.v.local_element(0)) << name;
+    }
+}
+
+// A step that was given up is tried again, at a time that differs by round-off,
+// as the times of a run that goes on with another end time do.
+TEST(TimeIntegrator, TriesAStepAgain)
+{
+  for (const std::string &name : integrators_with(is_dynamic))
+    {
+      const auto displacement = [&](const double shift) {
+        Oscillator system;
+        system.p              = 5;
+        State      state      = initial_state(system, 1., 0.5);
+        const auto integrator = make_integrator(name);
+        integrator->reset();
+        make_steps(*integrator, system, state, 0, 5);
+        if (shift != 0)
+          {
+            State given_up = state;
+            make_steps(*integrator, system, given_up, 5, 6);
+          }
+        const double t = start_of(5) * (1 + shift);
+        integrator->step(system, {t, start_of(6) - t, 1.}, state);
+        return state.u.local_element(0);
+      };
+      const double expected = displacement(0);
+      for (const double shift : {-3e-16, 3e-16})
+        EXPECT_NEAR(displacement(shift), expected, 1e-13) << name;
     }
 }
 

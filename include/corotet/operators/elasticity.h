@@ -171,7 +171,10 @@ namespace corotet
       if (is_by_cell(tangent))
         apply_tangent(f, v);
       else
-        apply_linearization(f, v, 1., 0., nullptr, nullptr);
+        {
+          Assert(tangent == linearized_tangent, dealii::ExcInternalError());
+          apply_linearization(f, v, 1., 0., nullptr, nullptr);
+        }
     }
 
     /// The part of the law that belongs to the vertices' dilatation; null if

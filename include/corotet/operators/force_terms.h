@@ -106,6 +106,10 @@ namespace corotet
     bool
     has_surface_matrix() const;
 
+    /// Whether surface_matrix() has terms that depend on the displacement.
+    bool
+    has_springs() const;
+
     /// Whether surface_matrix() has terms that depend on the velocity.
     bool
     has_surface_damping() const;
@@ -122,7 +126,7 @@ namespace corotet
                    const double   c_v) const;
 
     /// The springs of all terms at a time, as a matrix of the surface; null if
-    /// no term has such a matrix.
+    /// there are none.
     std::unique_ptr<SurfaceMatrix>
     springs(const ReferenceElement &reference, const double time) const;
 

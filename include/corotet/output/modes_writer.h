@@ -32,10 +32,11 @@ namespace corotet
   class ModesWriter
   {
   public:
-    /// Throws InputError if a probe is wrong.
+    /// Throws InputError if a probe is wrong; the @p log says which were moved.
     ModesWriter(const OutputParameters &parameters,
                 const std::string      &directory,
-                ModalAnalysis          &analysis);
+                ModalAnalysis          &analysis,
+                Log                    &log);
 
     /// Writes the results of the analysis; @p failure is the reason why they
     /// are incomplete, empty if they are complete. Throws MachineError if a

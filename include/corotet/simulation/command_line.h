@@ -19,7 +19,7 @@ namespace corotet
     double       element_size    = 0;
     double       feature_angle   = 40;
     unsigned int geometry_degree = 1;
-    /// The .msh file to write; empty if none is to be written.
+    /// The .msh or .h5 file to write; empty if none is to be written.
     std::string out;
   };
 
@@ -44,8 +44,8 @@ namespace corotet
     bool report = false;
     /// Whether to write nothing on the terminal but errors.
     bool quiet = false;
-    /// The style ("prm", "json" or "markdown") in which to list all parameters,
-    /// and do nothing else.
+    /// The style in which to list all parameters, and do nothing else: "prm",
+    /// "json", "markdown" or "schema".
     std::optional<std::string> print_parameters;
     /// Whether to list what there is to choose from, and do nothing else.
     bool list = false;

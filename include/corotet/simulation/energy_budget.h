@@ -60,7 +60,8 @@ namespace corotet
     void
     add_work(const State &state, const double time, const double dt);
 
-    /// Takes the last call of add_work() back. Not after end_step().
+    /// Takes the last calls of add_work() and record() back. Not after
+    /// end_step().
     void
     take_back();
 
@@ -88,7 +89,8 @@ namespace corotet
 
     /// What the supports did in the last record(), at the time for which the
     /// equation of motion was solved: an entry for each unknown of
-    /// PrescribedMotion::unknowns(), in their order.
+    /// PrescribedMotion::unknowns(), in their order. The forces are not numbers
+    /// from transfer() until the next record().
     const std::vector<SupportForce> &
     support_forces() const
     {
@@ -163,12 +165,13 @@ namespace corotet
     double initial_changing_energy = 0;
     /// Whether the account began, and whether its next step begins, at rest
     /// with the forces that act there instead of the guess.
-    bool                      began_unloaded     = false;
-    bool                      is_unloaded        = false;
-    double                    dissipation        = 0;
-    double                    energy_of_supports = 0;
-    StepRecord                initial;
-    std::vector<SupportForce> support_force_list;
+    bool       began_unloaded     = false;
+    bool       is_unloaded        = false;
+    double     dissipation        = 0;
+    double     energy_of_supports = 0;
+    StepRecord initial;
+    /// Those of the last record(), and of the one before.
+    std::vector<SupportForce> support_force_list, support_forces_before;
     /// Values of dt, work and dissipation before the last add_work().
     std::array<double, 3> before{};
   };

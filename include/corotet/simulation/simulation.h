@@ -83,6 +83,13 @@ namespace corotet
     run(const std::vector<std::unique_ptr<Observer>> &observers,
         const OutputTimes                            &recording = {});
 
+    /// Throws InputError if a run with these times would have too many steps.
+    void
+    check(const OutputTimes &recording) const
+    {
+      stepper.check(recording);
+    }
+
     /// Does what run() does step by step: start(), then step() until is_done()
     /// or as long as it is wanted, then finish(). The observers must live until
     /// then. After a ComputationError, which they are told of, nothing may

@@ -59,6 +59,11 @@ namespace corotet
              StructuralSystem           &system,
              Log                        &log);
 
+    /// Throws InputError if these times make too many steps, as start() and
+    /// resume() do.
+    void
+    check(const OutputTimes &wanted) const;
+
     /// Makes the initial state complete. Returns its record.
     const StepRecord &
     start(const OutputTimes &wanted);
@@ -243,24 +248,29 @@ namespace corotet
     void
     make_part(StepRecord &record);
     /// Whether the load step that ended with @p error, at the present state,
-    /// would meet the same singular matrix if it were shorter: that of a linear
-    /// body, or of the state at its start. (The mass of dynamics makes the
-    /// matrix of a shorter step another one.)
+    /// would meet the same matrix, which could not be solved with, if it were
+    /// shorter: that of a linear body, or of the state at its start. (The mass
+    /// of dynamics makes the matrix of a shorter step another one.)
     bool
-    is_singular_for_good(const ComputationError &error) const;
+    meets_same_matrix(const ComputationError &error) const;
     void
     announce_half(const double to, const ComputationError &error) const;
+    /// If nothing is done yet, makes the state at the start anew for a first
+    /// step that ends at @p to.
+    void
+    begin_anew_if_first(const double to);
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
     /// Solves for the acceleration that the run starts from: that at the start;
-    /// with stiff damping the mean one of the first step, or of a part of it
-    /// where that fails. Methods that keep energy always start from the former:
-    /// the trapezoidal rule makes no displacement of what lasts for a short
-    /// time, and its budget closes only if the equation holds at the start; the
-    /// midpoint rule has no acceleration at the start. Throws ComputationError.
+    /// with stiff damping the mean one of a first step of @p dt, or of a part
+    /// of it where that fails. Methods that keep energy always start from the
+    /// former: the trapezoidal rule makes no displacement of what lasts for a
+    /// short time, and its budget closes only if the equation holds at the
+    /// start; the midpoint rule has no acceleration at the start. Throws
+    /// ComputationError.
     StageReport
-    solve_first_acceleration();
+    solve_first_acceleration(double dt);
     bool
     starts_from_mean_acceleration() const
     {
@@ -278,8 +288,8 @@ namespace corotet
     void
     advance_explicitly(StepRecord &record);
 
-    /// These make the present state the good one, or restore it from that; in
-    /// statics its displacement only, as nothing moves.
+    /// These make the present state the good one, or restore it from that. The
+    /// displacement of implicit methods is in the budget already.
     void
     keep_state();
     void

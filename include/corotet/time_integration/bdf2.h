@@ -86,8 +86,9 @@ namespace corotet
       Vector v;
     };
 
+    /// Keeps the motion at the start of the step.
     void
-    remember(const double time, const State &state);
+    remember(const TimeStep &step, const State &state);
 
     /// The motion at the start of the step, and one step earlier.
     Past present, before;
