@@ -120,7 +120,8 @@ namespace corotet
       "Time between results",
       time_between_results,
       "Simulated time between two states in solution.vtkhdf [s]; 0: as "
-      "'States' says. The first and the last state are always written.",
+      "'States' says. The first state is always written, and so is the last "
+      "one, unless the run was stopped and can go on.",
       dealii::Patterns::Double(0));
     prm.add_parameter(
       "States",

@@ -206,24 +206,8 @@ namespace corotet
           fmt::format("step {}: made in {} parts", record.step, record.parts));
         log.count("step made in parts", "steps made in parts");
       }
-    // In statics the balance is the error of the work between load steps.
-    // Methods other than explicit ones may lose energy, and gain some for a
-    // while.
-    constexpr double much    = 0.1;
-    const double     balance = std::abs(worst_balance) > record.energy_balance ?
-                                 worst_balance :
-                                 record.energy_balance;
-    if (is_done() && integrator->is_dynamic() &&
-        std::abs(balance) > much * energy_supply)
-      log.warning(fmt::format(
-        "energy_balance: {:.3g} J have {}, and {:.3g} J have been put in: "
-        "shorter time steps{}, finer cells or Material/Rotation = "
-        "quadrature points make such errors smaller",
-        std::abs(balance),
-        balance > 0 ? "come out of nothing" : "been lost",
-        energy_supply,
-        integrator->is_explicit() ? ", more estimates of the stable step" :
-                                    ""));
+    if (is_done())
+      warn_of_balance(record);
     if (is_done() && adaptive)
       {
         log.line(fmt::format("Adaptive step: repeated steps: {}",
@@ -235,6 +219,28 @@ namespace corotet
                         "\"Smallest step\"",
                         adaptive->n_too_inaccurate()));
       }
+  }
+
+  void
+  TimeLoop::warn_of_balance(const StepRecord &record) const
+  {
+    // In statics the balance is the error of the work between load steps.
+    // Methods other than explicit ones may lose energy, and gain some for a
+    // while.
+    constexpr double much    = 0.1;
+    const double     balance = std::abs(worst_balance) > record.energy_balance ?
+                                 worst_balance :
+                                 record.energy_balance;
+    if (integrator->is_dynamic() && std::abs(balance) > much * energy_supply)
+      log.warning(fmt::format(
+        "energy_balance: {:.3g} J have {}, and {:.3g} J have been put in: "
+        "shorter time steps{}, finer cells or Material/Rotation = "
+        "quadrature points make such errors smaller",
+        std::abs(balance),
+        balance > 0 ? "come out of nothing" : "been lost",
+        energy_supply,
+        integrator->is_explicit() ? ", more estimates of the stable step" :
+                                    ""));
   }
 
   bool
@@ -309,6 +315,8 @@ namespace corotet
             parts_left.clear();
             is_new = good.step > record.step;
             record = good;
+            if (!is_unstable)
+              warn_of_balance(record);
             throw;
           }
       }

@@ -72,14 +72,18 @@ namespace corotet
       throw InputError("Convergence study/Reference",
                        "found 'exact solution' for modes; allowed: 'none' or "
                        "'finer run'");
-    if (parameters.reference == StudyReference::finer_run &&
-        parameters.further_refinements == 0 &&
-        (modes || parameters.time_steps.size() < 2))
-      throw InputError("Convergence study/Further refinements",
-                       "found 0: the run of the highest degree on the finest "
-                       "mesh would be compared with itself; allowed: 1 to 3, "
-                       "or 0 with several 'Time steps' of a simulation, whose "
-                       "finer run has a shorter step");
+    const auto require_finer_run = [&](const bool depends_on_time_step) {
+      if (parameters.reference == StudyReference::finer_run &&
+          parameters.further_refinements == 0 &&
+          !(depends_on_time_step && parameters.time_steps.size() > 1))
+        throw InputError("Convergence study/Further refinements",
+                         "found 0: the run of the highest degree on the finest "
+                         "mesh would be compared with itself; allowed: 1 to 3, "
+                         "or 0 with several 'Time steps' of a simulation with "
+                         "steps of given length, whose finer run has a shorter "
+                         "step");
+    };
+    require_finer_run(!modes);
     std::set<std::string> checked;
     for (StudyCase one : cases)
       {
@@ -93,6 +97,7 @@ namespace corotet
                            command.overrides,
                            one,
                            comm);
+        require_finer_run(!modes && run.depends_on_time_step());
         if (!modes)
           check_finest(run.simulation()->body().discretization);
         if (!modes && parameters.reference == StudyReference::finer_run &&

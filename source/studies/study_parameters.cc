@@ -114,8 +114,9 @@ namespace corotet
                       further_refinements,
                       "Number of refinements that the finer run of 'Reference' "
                       "has beyond the largest of 'Refinements' [-]. 0 is "
-                      "allowed with several 'Time steps' of a simulation only: "
-                      "else a run would be compared with itself.",
+                      "allowed only with several 'Time steps' of a simulation "
+                      "with steps of given length: else a run would be "
+                      "compared with itself.",
                       Integer(0, 3));
     prm.add_parameter(
       "Quantities",

@@ -239,6 +239,12 @@ class Studies(ProgramTest):
         orders = [row["L2_order_in_time"] for row in self.rows()]
         for order, expected in zip(orders[1:], (math.log2(255 / 63), math.log2(63 / 15))):
             self.assertAlmostEqual(float(order), expected, delta=0.1)
+        # Where no run has these steps, none is finer than the finest one.
+        for other in ("Time integration/Type = static", "Time integration/Adaptive step/Enabled = true"):
+            entries = {**moving, "Time integration/Type": "Newmark"}
+            run = self.study(EXACT, *(word for entry, value in entries.items() for word in ("--set", f"{entry} = {value}")), "--set", other,
+                             "--set", "Output/Overwrite = true", status=1)
+            self.assertIn("Convergence study/Further refinements: found 0: the run of the highest degree", run.stderr)
 
     def test_steps_that_end_at_results(self):
         """Adaptive steps end at multiples of Time between results, like those of a single run: this load acts for a hundredth of the

@@ -239,6 +239,9 @@ namespace corotet
     /// Logs remarks on a finished step.
     void
     report(const StepRecord &record) const;
+    /// Warns if much energy was gained or lost up to @p record.
+    void
+    warn_of_balance(const StepRecord &record) const;
     /// Makes the step of @p record, or what is left of it. Returns false if
     /// @p is_interrupted, which is asked after each part, ends that.
     bool

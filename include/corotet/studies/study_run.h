@@ -113,6 +113,14 @@ namespace corotet
       return simulated.get();
     }
 
+    /// Whether errors of a simulation depend on Time integration/Time step.
+    bool
+    depends_on_time_step() const
+    {
+      return parameters.simulation.time_integrator.selected().is_dynamic() &&
+             !parameters.simulation.adaptive_step.enabled;
+    }
+
   private:
     void
     simulate(StudyResult       &result,
