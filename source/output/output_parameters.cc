@@ -120,8 +120,8 @@ namespace corotet
       "Time between results",
       time_between_results,
       "Simulated time between two states in solution.vtkhdf [s]; 0: as "
-      "'States' says. The first state is always written, and so is the last "
-      "one, unless the run was stopped and can go on.",
+      "'States' says. The first state is always written, and the last one, too, "
+      "unless the run was stopped.",
       dealii::Patterns::Double(0));
     prm.add_parameter(
       "States",
