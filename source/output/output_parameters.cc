@@ -120,8 +120,7 @@ namespace corotet
       "Time between results",
       time_between_results,
       "Simulated time between two states in solution.vtkhdf [s]; 0: as "
-      "'States' says. The first state is always written, and the last one, too, "
-      "unless the run was stopped.",
+      "'States' says. The first and, unless stopped, the last state are there.",
       dealii::Patterns::Double(0));
     prm.add_parameter(
       "States",
