@@ -231,7 +231,8 @@ namespace corotet
     const double     balance = std::abs(worst_balance) > record.energy_balance ?
                                  worst_balance :
                                  record.energy_balance;
-    if (integrator->is_dynamic() && std::abs(balance) > much * energy_supply)
+    if (integrator->is_dynamic() && !is_unstable &&
+        std::abs(balance) > much * energy_supply)
       log.warning(fmt::format(
         "energy_balance: {:.3g} J have {}, and {:.3g} J have been put in: "
         "shorter time steps{}, finer cells or Material/Rotation = "
@@ -287,12 +288,14 @@ namespace corotet
         catch (const StepInterrupted &)
           {
             // The state that is left is the one at the start of a step or of a
-            // part of it.
+            // part of it. A step that was halved stays so.
             restore_state();
             system.equation().set_state(present);
-            if (next.parts > 0)
+            if (next.parts > 0 || parts_left.size() > 1)
               return stay(next);
             parts_left.clear();
+            if (good.step == record.step)
+              good.clamped_cells = 0;
             // The step to come is again the rest of one that was left.
             if (from < done)
               start_of_left_step = from;
@@ -315,8 +318,7 @@ namespace corotet
             parts_left.clear();
             is_new = good.step > record.step;
             record = good;
-            if (!is_unstable)
-              warn_of_balance(record);
+            warn_of_balance(record);
             throw;
           }
       }

@@ -129,9 +129,13 @@ namespace corotet
     if (dynamic_cast<const LinearSolverError *>(&error) == nullptr ||
         integrator->is_dynamic())
       return false;
+    const EquationOfMotion &equation = system.equation();
+    if (equation.terms.surface_matrix_depends_on_time() ||
+        equation.terms.has_linearization(Tangent::consistent))
+      return false;
     Vector difference(present.u);
     difference -= budget->last_displacement();
-    return body.law->is_linear() || norm(difference) == 0;
+    return equation.is_linear() || norm(difference) == 0;
   }
 
   void

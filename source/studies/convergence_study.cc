@@ -99,7 +99,10 @@ namespace corotet
                            comm);
         require_finer_run(!modes && run.depends_on_time_step());
         if (!modes)
-          check_finest(run.simulation()->body().discretization);
+          {
+            run.check_times();
+            check_finest(run.simulation()->body().discretization);
+          }
         if (!modes && parameters.reference == StudyReference::finer_run &&
             run.simulation()->body().mesh.geometry_degree() > 1)
           throw InputError(

@@ -19,17 +19,18 @@ COMPLETION = ROOT / "scripts" / "completion"
 class Shells(ProgramTest):
 
     def options(self, *command):
-        return set(re.findall(r"^  (--[a-z-]+)", self.run_program(*command, "--help").stdout, re.MULTILINE))
+        return set(re.findall(r"^  (?:-h,)?(--[a-z-]+)", self.run_program(*command, "--help").stdout, re.MULTILINE))
 
     def test_options(self):
         options = self.options() | self.options("mesh")
         self.assertIn("--restart", options)
-        for file, pattern, prefix in ((COMPLETION / "corotet.bash", r'(?<=[" ])--[a-z-]+(?=[ "])', ""), (COMPLETION / "_corotet", r"'\*?(--[a-z-]+)\[", ""),
+        for file, pattern, prefix in ((COMPLETION / "corotet.bash", r'(?<=[" ])--[a-z-]+(?=[ "])', ""), (COMPLETION / "_corotet", r"'\*?(--[a-z-]+)\[|\{-h,(--[a-z-]+)\}", ""),
                                       (COMPLETION / "corotet.fish", r" -l ([a-z-]+)", "--"),
-                                      (ROOT / "doc" / "corotet.1", r"^\.(?:B|BI|BR) (\\-\\-[a-z\\-]+)", "")):
+                                      (ROOT / "doc" / "corotet.1", r"^\.(?:B|BI|BR) (?:\\-h, )?(\\-\\-[a-z\\-]+)", "")):
             with self.subTest(file=file.name):
                 found = re.findall(pattern, file.read_text(encoding="utf-8"), re.MULTILINE)
-                self.assertEqual({prefix + name.replace("\\", "") for name in found}, options)
+                names = {name if isinstance(name, str) else "".join(name) for name in found}
+                self.assertEqual({prefix + name.replace("\\", "") for name in names}, options)
 
     def complete(self, *words):
         """The completions that bash offers for the last of these words after

@@ -143,7 +143,9 @@ TEST(Halving, FirstStepWithStiffDamping)
 {
   const auto run = [](const double step, const unsigned int max_iterations) {
     return std::make_unique<FinishedRun>(
-      bar(time_integration("Newmark", 0.04, step), max_iterations, "5000") +
+      bar(time_integration("generalized-alpha", 0.04, step),
+          max_iterations,
+          "5000") +
       section("Damping", {{"Stiffness coefficient", 0.01}}));
   };
   const auto halved = run(0.04, 12), half = run(0.02, 50);

@@ -239,7 +239,8 @@ namespace corotet
     /// Logs remarks on a finished step.
     void
     report(const StepRecord &record) const;
-    /// Warns if much energy was gained or lost up to @p record.
+    /// Warns if much energy was gained or lost up to @p record, unless the
+    /// motion is unstable, which is an error.
     void
     warn_of_balance(const StepRecord &record) const;
     /// Makes the step of @p record, or what is left of it. Returns false if
@@ -252,8 +253,9 @@ namespace corotet
     make_part(StepRecord &record);
     /// Whether the load step that ended with @p error, at the present state,
     /// would meet the same matrix, which could not be solved with, if it were
-    /// shorter: that of a linear body, or of the state at its start. (The mass
-    /// of dynamics makes the matrix of a shorter step another one.)
+    /// shorter: that of a linear problem, or of the state at its start. (The
+    /// mass of dynamics, springs that depend on time and derivatives of loads
+    /// make the matrix of a shorter step another one.)
     bool
     meets_same_matrix(const ComputationError &error) const;
     void
@@ -277,7 +279,7 @@ namespace corotet
     bool
     starts_from_mean_acceleration() const
     {
-      return !integrator->keeps_energy() &&
+      return integrator->is_dynamic() && !integrator->keeps_energy() &&
              system.equation().terms.has_stiff_damping();
     }
     /// Makes the budget of the state at the start.

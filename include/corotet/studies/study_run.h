@@ -113,6 +113,13 @@ namespace corotet
       return simulated.get();
     }
 
+    /// Throws InputError if the simulation would have too many steps.
+    void
+    check_times() const
+    {
+      simulated->check({1, parameters.output.time_between_results});
+    }
+
     /// Whether errors of a simulation depend on Time integration/Time step.
     bool
     depends_on_time_step() const
