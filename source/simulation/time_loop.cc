@@ -75,9 +75,10 @@ namespace corotet
   }
 
   StageReport
-  TimeLoop::solve_first_acceleration(double dt)
+  TimeLoop::solve_first_acceleration()
   {
     const double start_time = parameters.start_time;
+    double       dt         = duration(end_of_step(1));
     if (integrator->is_explicit())
       return solve_first_half_step(0.5 * dt);
     if (!starts_from_mean_acceleration())
@@ -155,8 +156,7 @@ namespace corotet
     if (integrator->is_dynamic())
       {
         system.prescribe(present, start_time, 1.);
-        const StageReport report =
-          solve_first_acceleration(duration(end_of_step(1)));
+        const StageReport report = solve_first_acceleration();
         if (integrator->is_explicit() && !body.mass.is_lumped())
           log.line(fmt::format("Consistent mass: {} iterations of conjugate "
                                "gradients a step",

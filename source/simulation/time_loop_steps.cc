@@ -119,7 +119,6 @@ namespace corotet
         announce_half(to, error);
         parts_left.back().halvings_left = halvings_left - 1;
         parts_left.push_back({middle, halvings_left - 1});
-        begin_anew_if_first(middle);
       }
   }
 
@@ -136,16 +135,6 @@ namespace corotet
     Vector difference(present.u);
     difference -= budget->last_displacement();
     return equation.is_linear() || norm(difference) == 0;
-  }
-
-  void
-  TimeLoop::begin_anew_if_first(const double to)
-  {
-    if (done > 0 || !starts_from_mean_acceleration())
-      return;
-    solve_first_acceleration(duration(to));
-    begin_budget();
-    keep_state();
   }
 
   void
@@ -204,7 +193,13 @@ namespace corotet
           }
         rejected = to;
         restore_state();
-        begin_anew_if_first(end_of_step(1));
+        if (done == 0 && starts_from_mean_acceleration())
+          {
+            // The mean acceleration is that of a first step of this length.
+            solve_first_acceleration();
+            begin_budget();
+            keep_state();
+          }
         warn_of_steps(record.step + (1 - done) * duration / adaptive->length(),
                       adaptive->length());
       }

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "../body.h"
-#include "../simulation/bent_bar.h"
 #include "../simulation/complete_run.h"
 
 using namespace corotet;
@@ -127,28 +126,6 @@ namespace
 
   private:
     double w = 0;
-  };
-
-  // That force, in a way that may depend on the velocity.
-  class Drag : public Pull
-  {
-  public:
-    using Pull::Pull;
-
-    bool
-    depends_on_velocity() const override
-    {
-      return true;
-    }
-  };
-  class DragKind : public PullKind
-  {
-  public:
-    void
-    add_to(ForceTerms &terms, const ForceContext &context) const override
-    {
-      terms.add(std::make_unique<Drag>(context, 1.));
-    }
   };
 } // namespace
 
@@ -276,6 +253,26 @@ TEST(OutsideForces, WrongDerivative)
 // Explicit steps take such forces with the velocity of half a step before.
 TEST(OutsideForces, VelocityInExplicitSteps)
 {
+  class Drag : public Pull
+  {
+  public:
+    using Pull::Pull;
+
+    bool
+    depends_on_velocity() const override
+    {
+      return true;
+    }
+  };
+  class DragKind : public PullKind
+  {
+  public:
+    void
+    add_to(ForceTerms &terms, const ForceContext &context) const override
+    {
+      terms.add(std::make_unique<Drag>(context, 1.));
+    }
+  };
   const AddedCandidate<ForceKind> added(candidate<ForceKind, DragKind>("drag"));
   const std::string               body =
     box_mesh("1, 1, 1", "1, 1, 1") + element_text(1, "row sum") +
@@ -326,15 +323,4 @@ TEST(OutsideForces, VelocityInStatics)
     candidate<ForceKind, WatchKind>("watch"));
   MovingBody body(box("1, 1, 1", "1, 1, 1"), fixed("x-min") + statics());
   body.system.equation().evaluate_forces(body.state, 0., 1.);
-}
-
-// A load step that is halved with a force that depends on the velocity, which
-// in dynamics is stiff damping: statics has no first acceleration.
-TEST(OutsideForces, HalvedLoadStep)
-{
-  const AddedCandidate<ForceKind> added(candidate<ForceKind, DragKind>("drag"));
-  CompleteRun                     run(bent_bar(statics(1), 5, "5000", 1e-11));
-  EXPECT_EQ(run.run(), "");
-  ASSERT_EQ(run.recorder().steps.size(), 1u);
-  EXPECT_GT(run.recorder().steps.front().parts, 1u);
 }

@@ -137,26 +137,6 @@ TEST(Halving, GivesUp)
             1e-10 * good.recorder().displacement.linfty_norm());
 }
 
-// With stiff damping the first step starts from its mean acceleration; if it is
-// halved, from that of the half.
-TEST(Halving, FirstStepWithStiffDamping)
-{
-  const auto run = [](const double step, const unsigned int max_iterations) {
-    return std::make_unique<FinishedRun>(
-      bar(time_integration("generalized-alpha", 0.04, step),
-          max_iterations,
-          "5000") +
-      section("Damping", {{"Stiffness coefficient", 0.01}}));
-  };
-  const auto halved = run(0.04, 12), half = run(0.02, 50);
-  ASSERT_EQ(halved->message, "");
-  ASSERT_EQ(half->message, "");
-  EXPECT_EQ(halved->recorder().steps.front().parts, 2u);
-  EXPECT_LE(largest_difference(halved->recorder().displacement,
-                               half->recorder().displacement),
-            1e-9 * half->recorder().displacement.linfty_norm());
-}
-
 // A step from a guess that fails starts from the guess again, not from rest.
 TEST(Halving, StartsFromTheGuessAgain)
 {

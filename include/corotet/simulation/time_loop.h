@@ -260,26 +260,21 @@ namespace corotet
     meets_same_matrix(const ComputationError &error) const;
     void
     announce_half(const double to, const ComputationError &error) const;
-    /// If nothing is done yet, makes the state at the start anew for a first
-    /// step that ends at @p to.
-    void
-    begin_anew_if_first(const double to);
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
     /// Solves for the acceleration that the run starts from: that at the start;
-    /// with stiff damping the mean one of a first step of @p dt, or of a part
-    /// of it where that fails. Methods that keep energy always start from the
-    /// former: the trapezoidal rule makes no displacement of what lasts for a
-    /// short time, and its budget closes only if the equation holds at the
-    /// start; the midpoint rule has no acceleration at the start. Throws
-    /// ComputationError.
+    /// with stiff damping the mean one of the first step, or of a part of it
+    /// where that fails. Methods that keep energy always start from the former:
+    /// the trapezoidal rule makes no displacement of what lasts for a short
+    /// time, and its budget closes only if the equation holds at the start; the
+    /// midpoint rule has no acceleration at the start. Throws ComputationError.
     StageReport
-    solve_first_acceleration(double dt);
+    solve_first_acceleration();
     bool
     starts_from_mean_acceleration() const
     {
-      return integrator->is_dynamic() && !integrator->keeps_energy() &&
+      return !integrator->keeps_energy() &&
              system.equation().terms.has_stiff_damping();
     }
     /// Makes the budget of the state at the start.
