@@ -74,10 +74,6 @@ def status(run):
                "unfinished": ("open", f"The study is not finished: {summary.get('finished_runs')} of {summary.get('runs')} runs are done."),
                "running": ("open", f"The run is under way.{reached} This page shows what there was on {run.date}."),
                "killed": ("open", f"The run has not come to an end: it was killed, or its results were copied while it went on.{reached}")}
-    if run.kind == "study" and run.state == "failed":
-        failed = summary.get("failed_runs", 0)
-        text = f"{count(failed, 'run')} of {summary.get('runs')} of the study failed." if failed else ""
-        notices["failed"] = ("failed", " ".join(filter(None, (text, message and f"{message[0].upper()}{message[1:]}."))))
     if run.state in notices:
         kind, text = notices[run.state]
         return f'<p class="notice {kind}" role="alert" id="status" data-state="{run.state}">{text}</p>'

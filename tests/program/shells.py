@@ -24,7 +24,8 @@ class Shells(ProgramTest):
     def test_options(self):
         options = self.options() | self.options("mesh")
         self.assertIn("--restart", options)
-        for file, pattern, prefix in ((COMPLETION / "corotet.bash", r'(?<=[" ])--[a-z-]+(?=[ "])', ""), (COMPLETION / "_corotet", r"'\*?(--[a-z-]+)\[|\{-h,(--[a-z-]+)\}", ""),
+        for file, pattern, prefix in ((COMPLETION / "corotet.bash", r'(?<=[" ])--[a-z-]+(?=[ "])', ""),
+                                      (COMPLETION / "_corotet", r"'\*?(--[a-z-]+)\[|\{-h,(--[a-z-]+)\}", ""),
                                       (COMPLETION / "corotet.fish", r" -l ([a-z-]+)", "--"),
                                       (ROOT / "doc" / "corotet.1", r"^\.(?:B|BI|BR) (?:\\-h, )?(\\-\\-[a-z\\-]+)", "")):
             with self.subTest(file=file.name):

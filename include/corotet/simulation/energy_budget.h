@@ -170,7 +170,7 @@ namespace corotet
     double     dissipation        = 0;
     double     energy_of_supports = 0;
     StepRecord initial;
-    /// Those of the last record(), and of the one before.
+    /// What the supports did in the last record(), and in the one before.
     std::vector<SupportForce> support_force_list, support_forces_before;
     /// Values of dt, work and dissipation before the last add_work().
     std::array<double, 3> before{};
