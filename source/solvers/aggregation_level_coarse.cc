@@ -6,6 +6,7 @@
 #include <corotet/solvers/aggregation_level.h>
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 #include <span>
 
@@ -18,6 +19,22 @@ namespace corotet
     {
       return {graph.columns.data() + graph.starts[row],
               graph.columns.data() + graph.starts[row + 1]};
+    }
+
+    Modes
+    load(const double *source)
+    {
+      Modes result;
+      std::memcpy(&result.first, source, sizeof(result.first));
+      std::memcpy(&result.last, source + 4, sizeof(result.last));
+      return result;
+    }
+
+    void
+    store(double *target, const Modes &modes)
+    {
+      std::memcpy(target, &modes.first, sizeof(modes.first));
+      std::memcpy(target + 4, &modes.last, sizeof(modes.last));
     }
 
     /// Adds the products p^T b to the six rows of an aggregate, for blocks b in
@@ -42,11 +59,10 @@ namespace corotet
           const auto column = 6 * (entry - entries.begin());
           for (int m = 0; m < 6; ++m)
             {
-              Modes sum = p[0][m] * blocks[k][0];
-              for (int a = 1; a < d; ++a)
-                sum += p[a][m] * blocks[k][a];
-              for (int b = 0; b < 6; ++b)
-                row[m][column + b] += sum[b];
+              Modes sum = load(row[m] + column);
+              for (int a = 0; a < d; ++a)
+                sum.add(p[a][m], blocks[k][a]);
+              store(row[m] + column, sum);
             }
         }
     }
@@ -73,8 +89,8 @@ namespace corotet
     // There is room for one of the two arrays at a time. The larger one comes
     // first and takes the place of the blocks: a smaller one there would leave
     // it no room.
-    std::vector<ModeBlock<float>>().swap(prolongation);
-    std::vector<ModeBlock<double>> exact(prolongation_pattern.columns.size());
+    std::vector<FloatModes>().swap(prolongation);
+    std::vector<ModeBlock> exact(prolongation_pattern.columns.size());
     smooth_motions(exact, A, rigid_motions(frames));
     fill_coarse(A, exact);
     const std::size_t n_entries = prolongation_pattern.starts[n_points];
@@ -83,7 +99,10 @@ namespace corotet
     for (std::size_t k = 0; k < n_entries; ++k)
       {
         reading.passed(&exact[k]);
-        prolongation.emplace_back(exact[k].rows());
+        FloatModes &values = prolongation.emplace_back();
+        for (int a = 0; a < d; ++a)
+          for (int m = 0; m < 6; ++m)
+            values[a][m] = exact[k][a][m];
       }
   }
 
@@ -112,8 +131,8 @@ namespace corotet
   /// diagonal.
   template <int d>
   void
-  AggregationLevel<d>::fill_coarse(const BlockMatrix                    &A,
-                                   const std::vector<ModeBlock<double>> &exact)
+  AggregationLevel<d>::fill_coarse(const BlockMatrix            &A,
+                                   const std::vector<ModeBlock> &exact)
   {
     problem.matrix = std::make_unique<BlockMatrix>(coarse_matrix_pattern);
     const NodeGraph &graph  = points->graph();
@@ -121,15 +140,15 @@ namespace corotet
     const int        n_own  = known_aggregates.n_owned();
     const auto       number = coarse_numbers();
     // Six rows for each row, one after the other, as in the matrix.
-    std::vector<double> of_others(36 * rows_of_others.columns.size());
-    std::vector<int>    place(known_aggregates.n_local()), numbers;
-    std::vector<std::array<Modes, d>> row_blocks;
+    std::vector<double>    of_others(36 * rows_of_others.columns.size());
+    std::vector<int>       place(known_aggregates.n_local()), numbers;
+    std::vector<ModeBlock> row_blocks;
     for (int i = 0; i < n_points; ++i)
       {
         const int *columns =
           &product_pattern.columns[product_pattern.starts[i]];
         const int n = product_pattern.starts[i + 1] - product_pattern.starts[i];
-        row_blocks.assign(n, std::array<Modes, d>());
+        row_blocks.assign(n, ModeBlock());
         numbers.resize(n);
         for (int k = 0; k < n; ++k)
           {
@@ -146,15 +165,15 @@ namespace corotet
               add_product(row_blocks[place[prolongation_pattern.columns[l]]],
                           rows,
                           d * (k - graph.starts[i]),
-                          exact[l].rows());
+                          exact[l]);
           }
         for (int l = prolongation_pattern.starts[i];
              l < prolongation_pattern.starts[i + 1];
              ++l)
           {
-            auto p = exact[l].rows();
+            ModeBlock p = exact[l];
             for (Modes &row : p)
-              row /= the_unit;
+              row *= 1 / the_unit;
             const int I = prolongation_columns[l];
             if (I < n_own)
               add_to_row<d>(coarse.template rows_of<6>(I),

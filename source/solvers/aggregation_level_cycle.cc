@@ -158,7 +158,7 @@ namespace corotet
            k < prolongation_pattern.starts[i + 1];
            ++k)
         action(d * i,
-               &prolongation[k].values[0][0],
+               prolongation[k].data()->data(),
                6 * prolongation_columns[k]);
   }
 

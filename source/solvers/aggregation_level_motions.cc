@@ -22,10 +22,10 @@ namespace corotet
       for (int a = 0; a < 3; ++a)
         {
           const int b = (a + 1) % 3, c = (a + 2) % 3;
-          translation[a][a]     = 1;
-          translation[a][3 + b] = r[c];
-          translation[a][3 + c] = -r[b];
-          rotation[a][3 + a]    = 1;
+          translation[a].set(a, 1);
+          translation[a].set(3 + b, r[c]);
+          translation[a].set(3 + c, -r[b]);
+          rotation[a].set(3 + a, 1);
         }
       if constexpr (d == 3)
         return translation;
@@ -34,8 +34,10 @@ namespace corotet
           std::array<Modes, 6> result{};
           for (int m = 0; m < 6; ++m)
             for (int a = 0; a < 3; ++a)
-              result[m] += point.motions[m][a] * translation[a] +
-                           point.motions[m][3 + a] * rotation[a];
+              {
+                result[m].add(point.motions[m][a], translation[a]);
+                result[m].add(point.motions[m][3 + a], rotation[a]);
+              }
           return result;
         }
     }
@@ -62,13 +64,13 @@ namespace corotet
             {
               const double part = dot(m, l);
               for (Modes &row : rows)
-                row[m] -= part * row[l];
+                row.set(m, row[m] - part * row[l]);
             }
           const double left = dot(m, m);
           const double scale =
             left > 1e-8 * largest[m / 3] ? 1 / std::sqrt(left) : 0.;
           for (Modes &row : rows)
-            row[m] *= scale;
+            row.set(m, scale * row[m]);
         }
     }
   } // namespace
@@ -78,10 +80,10 @@ namespace corotet
   /// where an aggregate is too small for six motions. Fills the frames of
   /// aggregates.
   template <int d>
-  std::vector<typename AggregationLevel<d>::template ModeBlock<double>>
+  std::vector<typename AggregationLevel<d>::ModeBlock>
   AggregationLevel<d>::rigid_motions(const std::vector<PointFrame<d>> &frames)
   {
-    std::vector<ModeBlock<double>> motions(points->exchange().n_items());
+    std::vector<ModeBlock> motions(points->exchange().n_items());
     problem.frames.assign(points_of_aggregates.n_rows(), PointFrame<6>());
     std::vector<Modes> rows, rigid_rows;
     for (int g = 0; g < points_of_aggregates.n_rows(); ++g)
@@ -105,9 +107,9 @@ namespace corotet
         make_orthonormal(rows);
         for (int i = 0; i < n; ++i)
           {
-            std::array<Modes, d> of_point;
+            ModeBlock of_point;
             std::copy_n(&rows[offset(i)], d, of_point.begin());
-            motions[begin[i]] = ModeBlock<double>(of_point);
+            motions[begin[i]] = of_point;
           }
         for (int i = 0; i < d * n; ++i)
           for (int m = 0; m < 6; ++m)
@@ -124,11 +126,11 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::multiply_by_motions(
-    std::array<Modes, d>                 *product,
-    const int                             i,
-    const BlockMatrix                    &A,
-    const std::vector<ModeBlock<double>> &motions,
-    std::vector<int>                     &place) const
+    ModeBlock                    *product,
+    const int                     i,
+    const BlockMatrix            &A,
+    const std::vector<ModeBlock> &motions,
+    std::vector<int>             &place) const
   {
     const NodeGraph &graph = points->graph();
     const int        first = prolongation_pattern.starts[i];
@@ -136,17 +138,17 @@ namespace corotet
     for (int k = 0; k < n; ++k)
       {
         place[prolongation_pattern.columns[first + k]] = k;
-        product[k]                                     = std::array<Modes, d>();
+        product[k]                                     = ModeBlock();
       }
     const auto rows = A.template rows_of<d>(i);
     for (int k = graph.starts[i]; k < graph.starts[i + 1]; ++k)
       add_product(product[place[aggregates[graph.columns[k]]]],
                   rows,
                   d * (k - graph.starts[i]),
-                  motions[graph.columns[k]].rows());
+                  motions[graph.columns[k]]);
     for (int k = 0; k < n; ++k)
       for (Modes &row : product[k])
-        row /= the_unit;
+        row *= 1 / the_unit;
   }
 
   /// Calls action(points, their number, inverse) for each diagonal block of D,
@@ -175,13 +177,13 @@ namespace corotet
   template <int d>
   void
   AggregationLevel<d>::smooth_motions(
-    std::vector<ModeBlock<double>>       &result,
-    const BlockMatrix                    &A,
-    const std::vector<ModeBlock<double>> &motions) const
+    std::vector<ModeBlock>       &result,
+    const BlockMatrix            &A,
+    const std::vector<ModeBlock> &motions) const
   {
-    const double                      omega = 4. / 3 / largest_eigenvalue;
-    std::vector<std::array<Modes, d>> products;
-    std::vector<int>                  place(known_aggregates.n_local());
+    const double           omega = 4. / 3 / largest_eigenvalue;
+    std::vector<ModeBlock> products;
+    std::vector<int>       place(known_aggregates.n_local());
     // All points of a block have the same columns in the prolongation.
     for_each_diagonal_block([&](const int   *own,
                                 const int    n,
@@ -198,16 +200,16 @@ namespace corotet
       for (int i = 0; i < n; ++i)
         for (int k = 0; k < n_columns; ++k)
           {
-            const int            entry = starts[own[i]] + k;
-            std::array<Modes, d> rows{};
+            const int entry = starts[own[i]] + k;
+            ModeBlock rows{};
             if (prolongation_pattern.columns[entry] == aggregates[own[i]])
-              rows = motions[own[i]].rows();
+              rows = motions[own[i]];
             for (int j = 0; j < n; ++j)
               for (int b = 0; b < d; ++b)
                 for (int a = 0; a < d; ++a)
-                  rows[a] -= omega * inverse[d * n * (d * j + b) + d * i + a] *
-                             products[n_columns * j + k][b];
-            result[entry] = ModeBlock<double>(rows);
+                  rows[a].add(-omega * inverse[d * n * (d * j + b) + d * i + a],
+                              products[n_columns * j + k][b]);
+            result[entry] = rows;
           }
     });
     prolongation_ghosts.update(result.data());
@@ -215,18 +217,18 @@ namespace corotet
 
   // These members are instantiated one by one, as others are in files of their
   // own.
-  template std::vector<AggregationLevel<3>::ModeBlock<double>>
+  template std::vector<AggregationLevel<3>::ModeBlock>
   AggregationLevel<3>::rigid_motions(const std::vector<PointFrame<3>> &);
-  template std::vector<AggregationLevel<6>::ModeBlock<double>>
+  template std::vector<AggregationLevel<6>::ModeBlock>
   AggregationLevel<6>::rigid_motions(const std::vector<PointFrame<6>> &);
   template void
   AggregationLevel<3>::smooth_motions(
-    std::vector<AggregationLevel<3>::ModeBlock<double>> &,
+    std::vector<AggregationLevel<3>::ModeBlock> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<3>::ModeBlock<double>> &) const;
+    const std::vector<AggregationLevel<3>::ModeBlock> &) const;
   template void
   AggregationLevel<6>::smooth_motions(
-    std::vector<AggregationLevel<6>::ModeBlock<double>> &,
+    std::vector<AggregationLevel<6>::ModeBlock> &,
     const BlockMatrix &,
-    const std::vector<AggregationLevel<6>::ModeBlock<double>> &) const;
+    const std::vector<AggregationLevel<6>::ModeBlock> &) const;
 } // namespace corotet

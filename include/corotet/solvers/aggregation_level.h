@@ -37,8 +37,49 @@ namespace corotet
     std::array<std::array<double, 6>, 6> motions{};
   };
 
-  /// Values of six motions, side by side.
-  using Modes [[gnu::vector_size(64)]] = double;
+  /**
+   * Values of six motions, side by side in a register of four and one of two:
+   * wider registers would have to be put together first.
+   */
+  struct Modes
+  {
+    using Four [[gnu::vector_size(32), gnu::aligned(16)]] = double;
+    using Two [[gnu::vector_size(16)]]                    = double;
+
+    double
+    operator[](const int m) const
+    {
+      return m < 4 ? first[m] : last[m - 4];
+    }
+
+    void
+    set(const int m, const double value)
+    {
+      if (m < 4)
+        first[m] = value;
+      else
+        last[m - 4] = value;
+    }
+
+    Modes &
+    operator*=(const double factor)
+    {
+      first *= factor;
+      last *= factor;
+      return *this;
+    }
+
+    /// Adds @p factor times @p b.
+    void
+    add(const double factor, const Modes &b)
+    {
+      first += factor * b.first;
+      last += factor * b.last;
+    }
+
+    Four first{};
+    Two  last{};
+  };
 
   /**
    * The problem that a level of aggregation hands to the next one: six unknowns
@@ -147,30 +188,9 @@ namespace corotet
 
   private:
     /// Six values for each unknown of a point.
-    template <typename Number>
-    struct ModeBlock
-    {
-      ModeBlock() = default;
+    using ModeBlock  = std::array<Modes, d>;
+    using FloatModes = std::array<std::array<float, 6>, d>;
 
-      explicit ModeBlock(const std::array<Modes, d> &rows)
-      {
-        for (int a = 0; a < d; ++a)
-          for (int m = 0; m < 6; ++m)
-            values[a][m] = rows[a][m];
-      }
-
-      std::array<Modes, d>
-      rows() const
-      {
-        std::array<Modes, d> result{};
-        for (int a = 0; a < d; ++a)
-          for (int m = 0; m < 6; ++m)
-            result[a][m] = values[a][m];
-        return result;
-      }
-
-      Number values[d][6]{};
-    };
     /// Parts of rows of the coarse matrix: the number of each row at its owner,
     /// and its entries.
     struct RowParts
@@ -197,14 +217,14 @@ namespace corotet
 
     /// target += the block from column @p k of @p rows times @p b.
     static void
-    add_product(std::array<Modes, d>                &target,
+    add_product(ModeBlock                           &target,
                 const std::array<const double *, d> &rows,
                 const int                            k,
-                const std::array<Modes, d>          &b)
+                const ModeBlock                     &b)
     {
       for (int a = 0; a < d; ++a)
         for (int c = 0; c < d; ++c)
-          target[a] += rows[a][k + c] * b[c];
+          target[a].add(rows[a][k + c], b[c]);
     }
 
     /// Copies the blocks of @p A / unit in single precision. @p given_up: see
@@ -251,22 +271,21 @@ namespace corotet
     void
     build_coarse(const BlockMatrix                &A,
                  const std::vector<PointFrame<d>> &frames);
-    std::vector<ModeBlock<double>>
+    std::vector<ModeBlock>
     rigid_motions(const std::vector<PointFrame<d>> &frames);
     void
-    multiply_by_motions(std::array<Modes, d>                 *product,
-                        const int                             i,
-                        const BlockMatrix                    &A,
-                        const std::vector<ModeBlock<double>> &motions,
-                        std::vector<int>                     &place) const;
+    multiply_by_motions(ModeBlock                    *product,
+                        const int                     i,
+                        const BlockMatrix            &A,
+                        const std::vector<ModeBlock> &motions,
+                        std::vector<int>             &place) const;
     /// @p result has an entry for each one of the prolongation's pattern.
     void
-    smooth_motions(std::vector<ModeBlock<double>>       &result,
-                   const BlockMatrix                    &A,
-                   const std::vector<ModeBlock<double>> &motions) const;
+    smooth_motions(std::vector<ModeBlock>       &result,
+                   const BlockMatrix            &A,
+                   const std::vector<ModeBlock> &motions) const;
     void
-    fill_coarse(const BlockMatrix                    &A,
-                const std::vector<ModeBlock<double>> &exact);
+    fill_coarse(const BlockMatrix &A, const std::vector<ModeBlock> &exact);
     std::vector<int>
     coarse_numbers() const;
     void
@@ -328,7 +347,7 @@ namespace corotet
     std::vector<std::size_t> starts_of_inverses;
     double                   largest_eigenvalue = 0;
     /// The prolongation's rows of owned points.
-    std::vector<ModeBlock<float>> prolongation;
+    std::vector<FloatModes> prolongation;
 
     /// The first two of these vectors have entries of ghosts.
     mutable std::vector<float> x, direction, rhs, residual, product, scaled;
