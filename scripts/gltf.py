@@ -84,13 +84,13 @@ class Skin:
 
 def write_gltf(source, path, split=False, seconds=None):
     """Writes one file in which the states follow each other at their times, counted from the first; with @p seconds, the animation is stretched to that
-    length. With @p split, writes a file for each state."""
+    length, or that of each mode. With @p split, writes a file for each state."""
     if not split:
         write_file(source, source.states, path, seconds)
         return [path.name]
     files = numbered(path, len(source.states))
     for state, file in zip(source.states, files):
-        write_file(source, [state], file, None)
+        write_file(source, [state], file, seconds)
     return [file.name for file in files]
 
 

@@ -9,7 +9,6 @@ from . import columns
 
 MAX_ROWS = 1500
 DIGITS = 9
-ERRORS = {"L2": "error in L2", "H1": "error in H1 (seminorm)", "energy": "error in the energy norm"}
 
 
 @dataclasses.dataclass
@@ -116,8 +115,9 @@ def study_chart(rows, error, abscissa, label):
             groups.setdefault(key, []).append((x, value / (row.get(f"{error}_reference") or 1)))
     is_relative = any(row.get(f"{error}_reference") for row in rows)
     series = [{"label": series_label(key), "x": [finite(x) for x, _ in group], "y": [finite(y) for _, y in group]} for key, group in groups.items()]
-    title = ERRORS.get(error, f"error of {columns.name(error)}") + (", relative" if is_relative else "")
-    return Chart(f"{error}-{abscissa}", title[0].upper() + title[1:], "-", label, columns.any_unit(abscissa), series, log=True, points=True,
+    title = columns.ERRORS.get(error, f"error of {columns.name(error)}") + (", relative" if is_relative else "")
+    unit = "-" if is_relative else columns.any_unit(f"{error}_error")
+    return Chart(f"{error}-{abscissa}", title[0].upper() + title[1:], unit, label, columns.any_unit(abscissa), series, log=True, points=True,
                  n_rows=len(rows))
 
 

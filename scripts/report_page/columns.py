@@ -12,6 +12,9 @@ UNITS = (("dt|(.*_)?time(_step)?", "s"), (".*energy|external_work|energy_balance
 OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg m²", "total_mass": "kg", "h": "m",
                "peak_memory_bytes": "B", "largest_rotation_difference": "rad"}
 
+# Errors in norms, in the columns NORM_error of study.csv; other errors there are those of quantities.
+ERRORS = {"L2": "error in L2", "H1": "error in H1 (seminorm)", "energy": "error in the energy norm"}
+
 NAMES = {
     "dt": "length of the last step", "time": "time", "dofs": "unknowns", "kinetic_energy": "kinetic energy", "elastic_energy": "elastic energy",
     "dissipated_energy": "dissipated energy", "external_work": "external work", "energy_balance": "energy balance",
@@ -31,6 +34,8 @@ def unit(column):
 
 def any_unit(column):
     """The unit of a column of any table; "-" if there is none."""
+    if (error := re.fullmatch("(.+)_error", column)) and error[1] not in ERRORS:
+        return any_unit(error[1])  # the difference of a quantity from its reference
     if column.startswith("effective_mass"):
         return "kg"
     if column.startswith(("mass_share", "residual")) or re.search("_(error|order|reference)(_|$)|_order_in_time$", column):

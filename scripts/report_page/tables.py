@@ -111,7 +111,7 @@ def study(run):
     def cell(name, value):
         if isinstance(value, str):
             return escape(value) if value not in ("nan", "") else ""
-        if math.isnan(value):
+        if not math.isfinite(value):
             return ""
         if name.endswith(("_order", "_in_time")):
             return f'<data value="{value!r}">{value:.2f}</data>'.replace(">-", f">{MINUS}")

@@ -273,8 +273,7 @@ namespace corotet
   }
 
   bool
-  run_installed_script(const std::string              &name,
-                       const std::vector<std::string> &arguments)
+  run_installed_script(const std::string &name, const std::string &folder)
   {
     const std::string script = find_installed("share/corotet/scripts/" + name);
     if (script.empty())
@@ -282,12 +281,19 @@ namespace corotet
     constexpr double hour = 3600;
     try
       {
-        const ProgramEnd end = run_for_output(script, arguments, hour);
+        const ProgramEnd end =
+          run_for_output(script, {as_argument(folder)}, hour);
         return end.status == 0 && end.signal == 0 && !end.has_exceeded;
       }
     catch (const MachineError &)
       {
         return false;
       }
+  }
+
+  std::string
+  as_argument(const std::string &path)
+  {
+    return (path.starts_with('-') ? "./" : "") + path;
   }
 } // namespace corotet

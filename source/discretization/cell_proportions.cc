@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace corotet
@@ -45,15 +46,16 @@ namespace corotet
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int a = 0; a < 3; ++a)
           edges[a][i] = vertices[i + 1][a] - vertices[0][a];
-      const Tensor<2, 3>    F = edges * inverse;
-      std::array<double, 3> squares =
+      const Tensor<2, 3>          F = edges * inverse;
+      const std::array<double, 3> squares =
         eigenvalues(dealii::symmetrize(F * transpose(F)));
       // In a flat cell, whose volume is positive, the smallest eigenvalue is
       // mostly round-off: the smallest stretch is computed from the
-      // determinant.
-      squares[2] = std::abs(determinant(F)) /
-                   std::sqrt(squares[0] * std::max(squares[1], 0.));
-      return {{std::sqrt(squares[0]), std::sqrt(squares[1]), squares[2]}};
+      // determinant. In a needle the middle one may be round-off, too.
+      const double s0 = std::sqrt(squares[0]);
+      const double s1 = std::max(std::sqrt(std::max(squares[1], 0.)),
+                                 std::numeric_limits<float>::epsilon() * s0);
+      return {{s0, s1, std::abs(determinant(F)) / (s0 * s1)}};
     }
   } // namespace
 

@@ -10,10 +10,15 @@ namespace corotet
   {
     using dealii::Tensor;
 
-    IsotropicMaterial
-    material_of(const LameLanes &lame, const int lane)
+    // Calls action(lane, material) for the lanes that have a cell: a law may
+    // divide by the parameters, which are zero in others.
+    template <typename Action>
+    void
+    for_each_cell(const LameLanes &lame, const Action &action)
     {
-      return {lame.lambda[lane], lame.mu[lane], 0.};
+      for (int lane = 0; lane < n_lanes<double>; ++lane)
+        if (lame.mu[lane] > 0)
+          action(lane, IsotropicMaterial{lame.lambda[lane], lame.mu[lane], 0.});
     }
 
     // Calls a PointLaw lane by lane.
@@ -27,20 +32,20 @@ namespace corotet
              const Tensor2Lanes &H,
              Tensor2Lanes       &P) const
       {
-        for (int lane = 0; lane < n_lanes<double>; ++lane)
-          to_lane(law->stress(material_of(lame, lane),
-                              internal::of_lane(H, lane)),
-                  lane,
-                  P);
+        set_zero(P);
+        for_each_cell(lame, [&](const int lane, const auto &material) {
+          to_lane(law->stress(material, internal::of_lane(H, lane)), lane, P);
+        });
       }
 
       Simd<double>
       energy_density(const LameLanes &lame, const Tensor2Lanes &H) const
       {
         Simd<double> energy{};
-        for (int lane = 0; lane < n_lanes<double>; ++lane)
-          energy[lane] = law->energy_density(material_of(lame, lane),
-                                             internal::of_lane(H, lane));
+        for_each_cell(lame, [&](const int lane, const auto &material) {
+          energy[lane] =
+            law->energy_density(material, internal::of_lane(H, lane));
+        });
         return energy;
       }
 
@@ -59,21 +64,27 @@ namespace corotet
                  const Tensor2Lanes          &dF,
                  Tensor2Lanes                &dP) const
       {
-        for (int lane = 0; lane < n_lanes<double>; ++lane)
-          {
-            Tensor<2, 3> H;
-            static_for<9>([&](auto i) { H[i / 3][i % 3] = stored[i][lane]; });
-            to_lane(law->stress_derivative(material_of(lame, lane),
-                                           H,
-                                           internal::of_lane(dF, lane)),
-                    lane,
-                    dP);
-          }
+        set_zero(dP);
+        for_each_cell(lame, [&](const int lane, const auto &material) {
+          Tensor<2, 3> H;
+          static_for<9>([&](auto i) { H[i / 3][i % 3] = stored[i][lane]; });
+          to_lane(law->stress_derivative(material,
+                                         H,
+                                         internal::of_lane(dF, lane)),
+                  lane,
+                  dP);
+        });
       }
 
       const PointLaw *law = nullptr;
 
     private:
+      static void
+      set_zero(Tensor2Lanes &values)
+      {
+        static_for<9>([&](auto i) { values[i / 3][i % 3] = Simd<double>{}; });
+      }
+
       static void
       to_lane(const Tensor<2, 3> &value, const int lane, Tensor2Lanes &result)
       {

@@ -129,6 +129,14 @@ namespace corotet::abaqus
   Reader::begin_keyword(const Keyword &next, const unsigned int depth)
   {
     keyword = next;
+    // Rigid surfaces have a shape of their own, and no cells.
+    static const std::set<std::string> rigid{"CYLINDER",
+                                             "REVOLUTION",
+                                             "SEGMENTS",
+                                             "USER"};
+    if (const std::string type = upper_case(keyword.value("TYPE"));
+        keyword.name == "SURFACE" && rigid.contains(type))
+      keyword.name += ", TYPE=" + type;
     if (instance && !instance->is_placed)
       place_instance();
     const std::string other = keyword.value("INPUT");

@@ -203,7 +203,8 @@ namespace corotet::abaqus
     static const std::regex tetrahedron("(C|DC|AC|F)3D(4|10)[A-Z]*"),
       triangle("(S|DS|STRI|CPS|CPE|CPEG|CAX|M3D|SFM3D|R3D|DC2D|AC2D)(3|6|65)"
                "[A-Z]*"),
-      line("(T2D|T3D|DC1D|AC1D|R2D)(2|3)[A-Z]*|(B2|B3|PIPE2|PIPE3)(1|2)[A-Z]*");
+      line("(T2D|T3D|DC1D|AC1D|R2D)(2|3)[A-Z]*|"
+           "(B2|B3|PIPE2|PIPE3)(1|2|3)[A-Z]*");
     // Matching longer texts could fill the stack.
     constexpr std::size_t most = 40;
     std::smatch           found;
@@ -215,12 +216,11 @@ namespace corotet::abaqus
       return {Shape::triangle, found[2] == "3" ? 3U : 6U};
     if (std::regex_match(type, found, line))
       {
-        // The last digit is the number of nodes or, for beams, the degree.
+        // The last digit is the number of nodes or, for beams, the degree of
+        // their displacements; cubic beams have nodes at their ends only.
         const bool is_beam = found[4].matched;
         return {Shape::line,
-                static_cast<unsigned int>(
-                  std::stoi(is_beam ? found[4] : found[2])) +
-                  (is_beam ? 1 : 0)};
+                (is_beam ? found[4] == "2" : found[2] == "3") ? 3U : 2U};
       }
     return {};
   }

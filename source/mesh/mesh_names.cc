@@ -37,9 +37,12 @@ namespace corotet
 
   void
   NamedSets::add(const std::string                 &name,
-                 const std::vector<std::size_t>    &members,
+                 std::vector<std::size_t>           members,
                  const std::vector<unsigned int *> &id_of_member)
   {
+    // Files may name members more than once.
+    std::ranges::sort(members);
+    members.erase(std::unique(members.begin(), members.end()), members.end());
     std::map<unsigned int, std::uint64_t> n_in_set;
     for (const std::size_t member : members)
       ++n_in_set[*id_of_member[member]];

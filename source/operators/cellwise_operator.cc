@@ -70,8 +70,6 @@ namespace corotet
           y += lumped * load_as<decltype(y)>(lumped_mass->begin() + i);
         store_to(y, diagonal_of_A.begin() + i);
       });
-    if (surface != nullptr)
-      surface->add_diagonal(diagonal_of_A);
   }
 
   template <typename T>

@@ -90,6 +90,8 @@ namespace corotet
         size_of_surface = surface_matrix->size() / c_K;
       }
     compute_diagonal();
+    if (surface_operator)
+      surface_operator->add_diagonal(diagonal_of_A);
     if (VertexDilatation *dilatation = elastic.vertex_dilatation())
       dilatation->add_diagonal(diagonal_of_A, c_K, elastic.elastic_data());
     is_assembled = false;

@@ -29,6 +29,15 @@ namespace corotet
     const unsigned int n = inverse_diagonal.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       inverse_diagonal.local_element(i) = 1 / diagonal.local_element(i);
+    if (surface != nullptr)
+      for (unsigned int k = 0; k < surface->owned_nodes().size(); ++k)
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            const unsigned int i = 3 * surface->owned_nodes()[k] + a;
+            inverse_diagonal.local_element(i) =
+              1 /
+              (diagonal.local_element(i) + surface->diagonal_blocks()[k][a][a]);
+          }
     for (const unsigned int i : A.prescribed_unknowns())
       if (i < n)
         inverse_diagonal.local_element(i) = 0;
@@ -46,8 +55,14 @@ namespace corotet
     const auto      &nodes = surface.owned_nodes();
     for (unsigned int k = 0; k < nodes.size(); ++k)
       {
-        NodeBlock block{nodes[k], {}, {}};
-        bool      is_coupled = false;
+        NodeBlock   block{nodes[k], {}, {}};
+        const auto &S          = surface.diagonal_blocks()[k];
+        bool        is_coupled = false;
+        // In double precision: single precision would lose the rest of A beside
+        // stiff springs, which have no stiffness along the surface.
+        const auto diagonal_entry = [&](const unsigned int a) {
+          return diagonal.local_element(3 * nodes[k] + a) + S[a][a];
+        };
         for (unsigned int a = 0; a < 3; ++a)
           for (unsigned int b = 0; b < 3; ++b)
             {
@@ -56,15 +71,14 @@ namespace corotet
                   inverse_diagonal.local_element(j) == 0)
                 block.D[a][b] = a == b ? 1. : 0.;
               else if (a == b)
-                block.D[a][a] = diagonal.local_element(i);
+                block.D[a][a] = diagonal_entry(a);
               else
                 {
-                  block.D[a][b] = surface.diagonal_blocks()[k][a][b];
+                  block.D[a][b] = S[a][b];
                   is_coupled =
                     is_coupled ||
-                    std::abs(block.D[a][b]) >
-                      weak * std::sqrt(double(diagonal.local_element(i) *
-                                              diagonal.local_element(j)));
+                    std::abs(S[a][b]) > weak * std::sqrt(diagonal_entry(a)) *
+                                          std::sqrt(diagonal_entry(b));
                 }
             }
         if (!is_coupled)

@@ -27,6 +27,25 @@ namespace corotet
       for (unsigned int i = 0; i < n; ++i)
         to[i] = factor * from[i];
     }
+
+    // target = factor diagonal - that of S, at the nodes of S: in double
+    // precision, as stiff springs have no stiffness along the surface.
+    void
+    take_out_surface(dealii::LinearAlgebra::distributed::Vector<float> &target,
+                     const Vector                 &diagonal,
+                     const double                  factor,
+                     const SurfaceOperator<float> &S)
+    {
+      constexpr double round_off = std::numeric_limits<double>::epsilon();
+      for (unsigned int k = 0; k < S.owned_nodes().size(); ++k)
+        for (unsigned int a = 0; a < 3; ++a)
+          {
+            const unsigned int i    = 3 * S.owned_nodes()[k] + a;
+            const double       both = factor * diagonal.local_element(i);
+            target.local_element(i) =
+              std::max(both - S.diagonal_blocks()[k][a][a], round_off * both);
+          }
+    }
   } // namespace
 
   PMultigrid::Level::Level(const Nodes                      &nodes,
@@ -222,6 +241,11 @@ namespace corotet
         if (l == 0)
           {
             copy_scaled(level.residual, A.diagonal(), 1 / scale);
+            if (level.surface)
+              take_out_surface(level.residual,
+                               A.diagonal(),
+                               1 / scale,
+                               *level.surface);
             level.smoother.update_diagonal(level.residual, level.surface.get());
           }
         else

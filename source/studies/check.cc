@@ -19,6 +19,7 @@
 #include <fstream>
 #include <limits>
 #include <numeric>
+#include <stdexcept>
 
 namespace corotet
 {
@@ -161,7 +162,11 @@ namespace corotet
     double
     value(const std::vector<double> &row)
     {
-      AssertDimension(row.size(), values.size());
+      if (row.size() != values.size())
+        throw std::logic_error(
+          fmt::format("a check of a table with {} columns got one with {}",
+                      values.size(),
+                      row.size()));
       std::copy(row.begin(), row.end(), values.begin());
       return parser.Eval();
     }

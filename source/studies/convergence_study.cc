@@ -271,6 +271,14 @@ namespace corotet
         if (kept.contains("finer_run"))
           take_finer_result(
             result_from_json(finer_case(), kept.at("finer_run")));
+        if (kept.value("git_revision", "") != git_revision &&
+            !keeps_other_revisions)
+          {
+            log.warning(path + ": the result of another revision of corotet is "
+                               "kept, as are others of that kind; without "
+                               "--restart all runs are made again");
+            keeps_other_revisions = true;
+          }
         return result;
       }
     catch (const Json::exception &)
@@ -316,7 +324,7 @@ namespace corotet
 
     ++n_computed;
     StudyResult result = run->compute(path, command.restart, false);
-    Json        file{{"problem", problem}};
+    Json        file{{"problem", problem}, {"git_revision", git_revision}};
     if (parameters.reference == StudyReference::finer_run)
       {
         compare_with_finer_run(result, *run);
@@ -378,7 +386,7 @@ namespace corotet
   ConvergenceStudy::draw() const
   {
     on_root(comm, [&] {
-      if (!run_installed_script("draw_study", {directory}))
+      if (!run_installed_script("draw_study", directory))
         log.warning("the pictures of the study could not be drawn; "
                     "scripts/draw_study, which needs Python and matplotlib, "
                     "says why");

@@ -44,6 +44,6 @@ namespace corotet
     if (!found.empty() && find_installed("CMakeCache.txt").empty())
       script = quoted(found);
     return (is_named ? toolchain + std::string(" ") : "") + script + " " +
-           quoted(directory);
+           quoted(as_argument(directory));
   }
 } // namespace corotet

@@ -171,7 +171,7 @@ namespace corotet
         if (!command.report || command.validate)
           return;
         if (from_root(comm, [&] {
-              return run_installed_script("report", {directory});
+              return run_installed_script("report", directory);
             }))
           log.line("The page of the run is " + directory + "/report.html");
         else

@@ -262,6 +262,8 @@ namespace corotet
   {
     StudyResult result;
     result.study_case = study_case;
+    result.quantities.assign(parameters.study.quantity_list().size(),
+                             std::numeric_limits<double>::quiet_NaN());
     if (simulated)
       simulate(result, path, goes_on, saves_end);
     else
@@ -339,11 +341,7 @@ namespace corotet
     if (result.status == "done")
       result.quantities = pick(last.row);
     else
-      {
-        result.errors.reset();
-        result.quantities.assign(parameters.study.quantity_list().size(),
-                                 std::numeric_limits<double>::quiet_NaN());
-      }
+      result.errors.reset();
   }
 
   void
@@ -360,7 +358,8 @@ namespace corotet
       }
     take(result, analysis->summary());
     result.linear_iterations = analysis->n_linear_iterations();
-    result.quantities        = pick(frequencies());
+    if (result.status == "done")
+      result.quantities = pick(frequencies());
   }
 
   Json

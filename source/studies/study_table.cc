@@ -59,6 +59,11 @@ namespace corotet
     : results(results)
     , quantities(quantities)
   {
+    // Columns depend on the cases alone, not on the numbers in them.
+    for (const StudyResult &fine : results)
+      for (const StudyResult &coarse : results)
+        if (is_shorter_step_of(fine.study_case, coarse.study_case))
+          has_orders_in_time = true;
     const auto norm = [&](const std::string &name, double FieldNorms::*norm) {
       std::vector<double> references, values;
       for (const StudyResult &result : results)
@@ -116,13 +121,10 @@ namespace corotet
             error.orders[i] =
               order(values[j], values[i], results[j].h, results[i].h);
           if (is_shorter_step_of(fine, coarse))
-            {
-              has_orders_in_time      = true;
-              error.orders_in_time[i] = order(values[j],
-                                              values[i],
-                                              results[j].mean_time_step,
-                                              results[i].mean_time_step);
-            }
+            error.orders_in_time[i] = order(values[j],
+                                            values[i],
+                                            results[j].mean_time_step,
+                                            results[i].mean_time_step);
         }
     errors.push_back(error);
   }

@@ -59,7 +59,7 @@ TEST(Programs, ExitStatus)
                    "/no such/program: cannot be started: No such file or "
                    "directory");
     }
-  EXPECT_FALSE(run_installed_script("no such script", {}));
+  EXPECT_FALSE(run_installed_script("no such script", ""));
 }
 
 // Programs get arguments as they are: no shell splits or expands them.

@@ -144,6 +144,24 @@ TEST_F(AbaqusFile, NamesWithCommas)
   EXPECT_NEAR(volume(mesh, "5\" pipe"), 0.5, 1e-15);
 }
 
+// Rigid surfaces, which have a shape of their own, and beams of all kinds do
+// not keep the body from being read.
+TEST_F(AbaqusFile, RigidSurfacesAndBeams)
+{
+  const SerialMesh mesh =
+    read(nodes + cells +
+         "*ELEMENT, TYPE=B33, ELSET=rod\n11, 10, 20\n"
+         "*SURFACE, TYPE=CYLINDER, NAME=die\nSTART, 0., 0.\nLINE, 1., 0.\n"
+         "*SURFACE, NAME=front\nBody, S1\n");
+  EXPECT_EQ(mesh.cells.size(), 2U);
+  ASSERT_FALSE(mesh.remarks.empty());
+  EXPECT_NE(mesh.remarks.back().find(
+              "left out, as corotet reads the mesh only: *SURFACE, "
+              "TYPE=CYLINDER"),
+            std::string::npos)
+    << mesh.remarks.back();
+}
+
 // A set of nodes may be all nodes of a set of elements.
 TEST_F(AbaqusFile, NodesOfElements)
 {

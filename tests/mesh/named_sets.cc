@@ -13,6 +13,22 @@
 
 using namespace corotet;
 
+// Files may list a member twice: an id is not split only if all its members
+// are in the set.
+TEST(NamedSets, RepeatedMembers)
+{
+  std::vector<unsigned int>   ids{0, 0, 0, 0, 0};
+  std::vector<unsigned int *> places;
+  for (unsigned int &id : ids)
+    places.push_back(&id);
+  NamedSets named;
+  named.add("some", {0, 1, 2, 2, 1}, places);
+  const auto some = MeshNames("region", named).ids("some", "");
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    EXPECT_EQ(std::find(some.begin(), some.end(), ids[i]) != some.end(), i < 3)
+      << i;
+}
+
 // Where sets overlap, each member has one id, and every name keeps the meaning
 // that it had before other sets were added.
 TEST(NamedSets, Overlap)

@@ -355,6 +355,7 @@ class Export(ScriptTest):
             ((beam, "--to", "stl", "--times", "0", "--out", "empty.stl", "--warp", "much"), "found --warp much; allowed are numbers and auto"),
             *(((beam, "--to", "stl", "--warp", factor), f"found --warp {factor}; allowed are numbers and auto") for factor in ("nan", "inf", "1e400")),
             ((beam, "--to", "stl", "--warp", "1e45"), "the displaced body is not finite at 0.03, with displacements multiplied by 1e+45"),
+            ((beam, "--to", "gltf", "--split", "--seconds", "2"), "found --seconds with --split; files of one state have no animation"),
             ((beam, "--to", "gltf", "--seconds", "nan"), "argument --seconds: found nan; allowed are numbers from"),
             *(((beam, "--to", *words), f"{words[1]} has no effect with --to {words[0]}; allowed with {formats}") for *words, formats in (
                 ("stl", "--field", "stress", "gltf, usd, vtu, obj, xdmf, csv"), ("stl", "--split", "gltf"), ("obj", "--seconds", "3", "gltf, usd"),

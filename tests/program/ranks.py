@@ -34,6 +34,9 @@ class Ranks(ProgramTest):
         for ranks in (1, 2):
             run = self.run_case("cantilever", f"page{ranks}", "Time integration/End time = 0.03", ranks=ranks, more=("--report",))
             self.assertIn("</html>", (run / "report.html").read_text(encoding="utf-8"))
+        # A name that the script could take for an option.
+        self.run_program(ROOT / "parameters" / "cantilever.prm", "--set", "Time integration/End time = 0.02", "--output=-x", "--report")
+        self.assertTrue((self.folder / "-x" / "report.html").exists())
         # The page is one of the results, which may be replaced.
         self.run_case("cantilever", "page1", "Time integration/End time = 0.02", "Output/Overwrite = true")
         self.assertFalse((self.folder / "page1" / "report.html").exists())

@@ -100,9 +100,11 @@ class Studies(ProgramTest):
         result["result"]["errors"][0] = 0.125  # A mark that only this file has.
         kept.write_text(json.dumps(result), encoding="utf-8")
         self.study(EXACT, status=1)
-        self.study(EXACT, "--restart")
+        self.assertNotIn("another revision", self.study(EXACT, "--restart").stdout)
         self.assertEqual(float(self.rows()[0]["L2_error"]), 0.125)
         self.assertEqual(len(self.rows()), 4)
+        kept.write_text(json.dumps({**result, "git_revision": "0"}), encoding="utf-8")
+        self.assertEqual(self.study(EXACT, "--restart").stdout.count("degree_1_refinements_0.json: the result of another revision of corotet is kept"), 1)
         before = contents(self.folder / "out")
         for more in ((), ("--quiet",), ("--validate",)):
             errors = self.study(EXACT, "--restart", "--set", "Material/Poisson's ratio = 0.2", *more, status=1).stderr
@@ -233,7 +235,12 @@ class Studies(ProgramTest):
                   "Convergence study/Quantities": "elastic_energy", "Loads/Gravity": "0; 0; -10 * smooth_step(t, 0, 1)", "Boundary conditions/Fixed": "x-min",
                   "Time integration/End time": "1", "Convergence study/Time steps": "0.04, 0.02, 0.01", "Convergence study/Degrees": "1",
                   "Convergence study/Refinements": "0", "Convergence study/Further refinements": "0", "Material/Young's modulus": "1e4"}
+        # Checks know the columns that study.csv will have, those of orders in time among them.
+        moving.update({"Verification/Source": "none", "Verification/Tolerance reason": "none"})
+        moving["Verification/Checks"] = "order: last L2_order_in_time = 2 +- 0.1; steps: last steps = 100 +- 1e-9; memory: min peak_memory_bytes > 1e6"
         self.study(EXACT, *(word for entry, value in moving.items() for word in ("--set", f"{entry} = {value}")))
+        checks = (self.folder / "out" / "verification.csv").read_text(encoding="utf-8")
+        self.assertEqual(checks.count(",yes\n"), 3, checks)
         log = (self.folder / "out" / "log.txt").read_text(encoding="utf-8")
         self.assertIn("time_step_0.0025", log)
         orders = [row["L2_order_in_time"] for row in self.rows()]

@@ -44,11 +44,14 @@ namespace corotet
                  const std::vector<std::string> &arguments,
                  const double                    time_limit);
 
-  /// Runs a script that is installed with the library ("report"). Whether it
-  /// was found, and has ended with status 0 within an hour.
+  /// Runs a script that is installed with the library ("report") for a folder.
+  /// Whether it was found, and has ended with status 0 within an hour.
   bool
-  run_installed_script(const std::string              &name,
-                       const std::vector<std::string> &arguments);
+  run_installed_script(const std::string &name, const std::string &folder);
+
+  /// A path that no program takes for an option: "./-x" for "-x".
+  std::string
+  as_argument(const std::string &path);
 } // namespace corotet
 
 #endif

@@ -183,8 +183,9 @@ namespace corotet::bernstein
     return 1 / (binomial(2 * n, n) * binomial(2 * n + 3, 3));
   }
 
-  /// derivative<p>[i][k]: the derivative d N_i / d lambda_k of a Lagrange
-  /// polynomial at the barycentre, with all four lambda taken as independent.
+  /// centre_derivatives<p>[i][k]: the derivative d N_i / d lambda_k of a
+  /// Lagrange polynomial at the barycentre, with all four lambda taken as
+  /// independent.
   template <int p>
   constexpr std::array<std::array<double, 4>, size<p>>
   make_centre_derivatives()

@@ -227,7 +227,7 @@ namespace corotet
    * det R = 1 to 1e-14. A lane's result is the same, bit by bit, whatever the
    * other lanes hold. @p R may be @p F.
    *
-   * A X + b C, with C the cofactors of X and a, b > 0, has the rotation of X:
+   * a X + b C, with C the cofactors of X and a, b > 0, has the rotation of X:
    * Newton's iteration (X + X^{-T}) / 2 is one choice [Higham 1986]. Four steps
    * without a division or root are enough for principal stretches in
    * [0.7, 1.3], at any scale:

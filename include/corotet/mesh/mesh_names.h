@@ -52,7 +52,7 @@ namespace corotet
      */
     void
     add(const std::string                 &name,
-        const std::vector<std::size_t>    &members,
+        std::vector<std::size_t>           members,
         const std::vector<unsigned int *> &id_of_member);
 
     /// The number of members with an id, and how many of these are in a set.

@@ -47,8 +47,8 @@ namespace corotet
     void
     set_surface(const SurfaceOperator<T> *surface);
 
-    /// Computes the diagonal of A. To be called after set_*() if any of the
-    /// following members is used.
+    /// Computes the diagonal of A without that of the surface's matrix. To be
+    /// called after set_*() if any of the following members is used.
     void
     compute_diagonal();
 

@@ -227,13 +227,6 @@ namespace corotet
       return cell_coefficients;
     }
 
-    /// Counts of the last rotation update on this rank.
-    const RotationCounts &
-    rotation_counts() const
-    {
-      return counts;
-    }
-
     const ReferenceElement &
     reference_element() const
     {

@@ -31,8 +31,9 @@ namespace corotet
               const unsigned int             degree,
               const double                   range);
 
-    /// Takes the diagonal of A, with zero for prescribed unknowns, and the
-    /// couplings of @p surface, if that is not null. Collective.
+    /// Takes the diagonal of A without @p surface, with zero for prescribed
+    /// unknowns, and that of @p surface with its couplings, if it is not null.
+    /// Collective.
     void
     update_diagonal(const FloatVector            &diagonal,
                     const SurfaceOperator<float> *surface = nullptr);

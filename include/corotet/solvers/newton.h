@@ -169,13 +169,14 @@ namespace corotet
    * Full increments are taken although the residual grows: in bending it first
    * grows by orders of magnitude and is then gone within a few iterations,
    * where a monotone method would be very slow. When it has grown several times
-   * without coming below its best value in between, or is not finite, the
-   * method returns to its best point and searches along the increment from
-   * there (the watchdog technique of Chamberlain, Powell, Lemarechal, Pedersen,
-   * 1982): for the zero of r . dx where there is an energy (Matthies, Strang,
-   * The solution of nonlinear finite element equations, 1979), else for a
-   * smaller |r|. If that fails, it tries the direction of the definite tangent,
-   * in which the energy always decreases.
+   * without coming below its best value in between, has grown far (to 1e8 times
+   * that value), or is not finite, the method returns to its best point and
+   * searches along the increment from there (the watchdog technique of
+   * Chamberlain, Powell, Lemarechal, Pedersen, 1982): for the zero of r . dx
+   * where there is an energy (Matthies, Strang, The solution of nonlinear
+   * finite element equations, 1979), else for a smaller |r|. If that fails, it
+   * tries the direction of the definite tangent, in which the energy always
+   * decreases.
    *
    * Linear solves are as accurate as needed: their residual is a small part of
    * what quadratic convergence will leave after as many iterations as the last

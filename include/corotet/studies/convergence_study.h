@@ -111,6 +111,8 @@ namespace corotet
     std::optional<StudyResult> finer_result;
     /// The message if the finer run has failed, otherwise empty.
     std::string failure_of_finer_run;
+    /// Whether a result of another revision of the program has been kept.
+    bool keeps_other_revisions = false;
     /// The sizes of the body's parts in the first run of each degree, and
     /// whether a difference has been warned of.
     std::map<unsigned int, std::map<std::string, double>> first_sizes;
