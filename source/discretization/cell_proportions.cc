@@ -51,11 +51,14 @@ namespace corotet
         eigenvalues(dealii::symmetrize(F * transpose(F)));
       // In a flat cell, whose volume is positive, the smallest eigenvalue is
       // mostly round-off: the smallest stretch is computed from the
-      // determinant. In a needle the middle one may be round-off, too.
-      const double s0 = std::sqrt(squares[0]);
-      const double s1 = std::max(std::sqrt(std::max(squares[1], 0.)),
-                                 std::numeric_limits<float>::epsilon() * s0);
-      return {{s0, s1, std::abs(determinant(F)) / (s0 * s1)}};
+      // determinant. In a needle the middle one is round-off, too: both are
+      // taken to be the same.
+      constexpr double round_off = std::numeric_limits<float>::epsilon();
+      const double     s0        = std::sqrt(squares[0]);
+      const double     product   = std::abs(determinant(F)) / s0;
+      const bool   is_known = squares[1] > round_off * round_off * squares[0];
+      const double s1       = std::sqrt(is_known ? squares[1] : product);
+      return {{s0, s1, product / s1}};
     }
   } // namespace
 

@@ -268,9 +268,6 @@ namespace corotet
         StudyResult result = result_from_json(study_case, kept.at("result"));
         if (result.quantities.size() != quantities.size())
           return {};
-        if (kept.contains("finer_run"))
-          take_finer_result(
-            result_from_json(finer_case(), kept.at("finer_run")));
         if (kept.value("git_revision", "") != git_revision &&
             !keeps_other_revisions)
           {
@@ -279,6 +276,9 @@ namespace corotet
                                "--restart all runs are made again");
             keeps_other_revisions = true;
           }
+        if (kept.contains("finer_run"))
+          take_finer_result(
+            result_from_json(finer_case(), kept.at("finer_run")));
         return result;
       }
     catch (const Json::exception &)

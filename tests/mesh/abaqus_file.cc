@@ -144,8 +144,8 @@ TEST_F(AbaqusFile, NamesWithCommas)
   EXPECT_NEAR(volume(mesh, "5\" pipe"), 0.5, 1e-15);
 }
 
-// Rigid surfaces, which have a shape of their own, and beams of all kinds do
-// not keep the body from being read.
+// Rigid surfaces, which have a shape of their own, are left out; beams with
+// cubic displacements have two nodes.
 TEST_F(AbaqusFile, RigidSurfacesAndBeams)
 {
   const SerialMesh mesh =

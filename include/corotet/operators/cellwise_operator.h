@@ -52,7 +52,8 @@ namespace corotet
     void
     compute_diagonal();
 
-    /// The diagonal of A; empty before compute_diagonal().
+    /// What compute_diagonal() has found, to which a derived class may add;
+    /// empty before.
     const VectorType &
     diagonal() const
     {

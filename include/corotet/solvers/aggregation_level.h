@@ -80,6 +80,7 @@ namespace corotet
     Four first{};
     Two  last{};
   };
+  static_assert(sizeof(Modes) == 6 * sizeof(double));
 
   /**
    * The problem that a level of aggregation hands to the next one: six unknowns

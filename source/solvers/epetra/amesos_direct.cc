@@ -5,13 +5,12 @@
 #include <corotet/solvers/epetra/amesos_direct.h>
 #include <corotet/solvers/linear_solver_errors.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <Amesos.h>
 #include <Amesos_ConfigDefs.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iostream>
 #ifdef HAVE_AMESOS_MUMPS
 #  include <Amesos_Mumps.h>
 #endif
@@ -25,20 +24,45 @@ namespace corotet
     constexpr int arrays_too_small[] = {-8, -9, -17, -20};
     constexpr int no_memory          = -13;
 
-    // The error that MUMPS names, or that of Amesos.
+    // The error that MUMPS names, the same on all ranks, or else that of
+    // Amesos; 0 if there is none.
     int
-    error_code(Amesos_BaseSolver &solver, const int status)
+    error_code([[maybe_unused]] Amesos_BaseSolver &solver, const int status)
     {
 #ifdef HAVE_AMESOS_MUMPS
+      // Positive numbers are warnings.
       if (auto *const mumps = dynamic_cast<Amesos_Mumps *>(&solver);
-          mumps != nullptr && status != 0)
+          mumps != nullptr && mumps->GetINFOG()[0] < 0)
         return mumps->GetINFOG()[0];
 #endif
       return status;
     }
 
+    // Keeps Amesos from printing errors: they are reported otherwise, or are
+    // none, as the factorisation is repeated.
+    class Silence
+    {
+    public:
+      Silence()
+        : buffer(std::cerr.rdbuf(nullptr))
+      {}
+
+      ~Silence()
+      {
+        std::cerr.rdbuf(buffer);
+      }
+
+      Silence(const Silence &) = delete;
+      Silence &
+      operator=(const Silence &) = delete;
+
+    private:
+      std::streambuf *const buffer;
+    };
+
     void
-    enlarge_arrays(Amesos_BaseSolver &solver, const int percent)
+    enlarge_arrays([[maybe_unused]] Amesos_BaseSolver &solver,
+                   [[maybe_unused]] const int          percent)
     {
 #ifdef HAVE_AMESOS_MUMPS
       // ICNTL(14): by how much arrays are larger than MUMPS thinks necessary.
@@ -59,21 +83,25 @@ namespace corotet
     Amesos            amesos;
     const auto *const type =
       amesos.Query("Amesos_Mumps") ? "Amesos_Mumps" : "Amesos_Klu";
-    const MPI_Comm comm  = A.discretization().communicator();
-    int            error = 0;
+    const Silence silence;
+    int           error = 0;
     // Numerical pivoting may need larger arrays than expected.
     for (const int percent : {0, 100, 400, 1600})
       {
         factors.reset(amesos.Create(type, problem));
         if (percent > 0)
           enlarge_arrays(*factors, percent);
+        // Both return the same on all ranks.
         int status = factors->SymbolicFactorization();
-        if (dealii::Utilities::MPI::min(status, comm) == 0)
+        if (status == 0)
           status = factors->NumericFactorization();
-        error = dealii::Utilities::MPI::min(error_code(*factors, status), comm);
-        if (error == 0)
+        if (status == 0)
           return;
-        if (std::ranges::find(arrays_too_small, error) ==
+        const int found = error_code(*factors, status);
+        // Later errors may come of arrays that were made too large.
+        if (error == 0)
+          error = found;
+        if (std::ranges::find(arrays_too_small, found) ==
             std::end(arrays_too_small))
           break;
       }
@@ -97,8 +125,9 @@ namespace corotet
     Epetra_Vector b(View, matrix->rows(), const_cast<double *>(src.begin()));
     problem.SetLHS(&x);
     problem.SetRHS(&b);
-    if (const int status = factors->Solve(); status != 0)
+    const int status = factors->Solve();
+    if (const int error = error_code(*factors, status); error != 0)
       throw LinearSolverError(
-        fmt::format("Amesos' solution fails with status {}", status));
+        fmt::format("the solution with factors ends with status {}", error));
   }
 } // namespace corotet
