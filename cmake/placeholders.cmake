@@ -18,7 +18,7 @@ set(placeholders ${PROJECT_BINARY_DIR}/lib/corotet/placeholders)
 add_custom_command(OUTPUT ${placeholders}/made
   COMMAND ${Python3_EXECUTABLE} ${CMAKE_CURRENT_LIST_DIR}/placeholders.py $<TARGET_FILE:${deal_ii_target}> ${left_out} ${CMAKE_CXX_COMPILER} ${placeholders}
   COMMAND ${CMAKE_COMMAND} -E touch ${placeholders}/made
-  DEPENDS ${CMAKE_CURRENT_LIST_DIR}/placeholders.py ${CMAKE_CURRENT_LIST_FILE}
+  DEPENDS ${CMAKE_CURRENT_LIST_DIR}/placeholders.py ${CMAKE_CURRENT_LIST_FILE} $<TARGET_FILE:${deal_ii_target}>
   COMMENT "Making placeholders of libraries that are never called" VERBATIM)
 add_custom_target(corotet_placeholders DEPENDS ${placeholders}/made)
 add_dependencies(corotet corotet_placeholders)

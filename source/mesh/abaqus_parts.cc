@@ -25,7 +25,12 @@ namespace corotet::abaqus
       keyword.place.refuse("found *PART inside of a part that begins in "
                            "line " +
                            std::to_string(part->place.line));
-    part        = &parts[upper_case(name)];
+    const auto [own, is_new] = parts.try_emplace(upper_case(name));
+    if (!is_new)
+      keyword.place.refuse("found a second part '" + shortened(name) +
+                           "'; the first one begins in line " +
+                           std::to_string(own->second.place.line));
+    part        = &own->second;
     part->place = keyword.place;
   }
 

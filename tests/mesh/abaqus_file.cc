@@ -288,6 +288,8 @@ TEST_F(AbaqusFile, Refusals)
      "and NODE"},
     {nodes + cells + "*NSET, NSET=a, GENERATE\n5, 3\n",
      ":12: found the last number, 3, before the first one, 5"},
+    {"*PART, NAME=a\n*END PART\n*PART, NAME=A\n",
+     ":3: found a second part 'A'; the first one begins in line 1"},
     {"*NGEN\n1, 2\n",
      ":1: found *NGEN, which is not supported; allowed are nodes and elements "
      "that are written out"},
