@@ -6,10 +6,10 @@
     benchmarks/scaling.py [--program PROGRAM] [--most-ranks 16] [--cells 4] [--document]
 
 Linear statics of beams of --cells^3 times four cuboids for each rank at degree
-3, 8 and 64 times as many at degrees 2 and 1, on 1, 2, 4, .. ranks, and on one. If there are more ranks than cores,
-ranks share them, and only iterations and memory count. The model takes the
-times of one rank and of two and computes those of up to 1,024 ranks for 1e9
-unknowns; its assumptions are in doc/scaling.md, into which --document writes
+3, 8 and 64 times as many at degrees 2 and 1, on 1, 2, 4, .. ranks, and on one.
+If there are more ranks than cores, ranks share them, and only iterations and
+memory count. The model takes the times of one rank and of two and computes
+those of up to 1,024 ranks for 1e9 unknowns; its assumptions are in doc/scaling.md, into which --document writes
 the tables.
 
 The status is 1 if a body takes more than two iterations more than on one rank, if the largest takes more than three more than the smallest, if

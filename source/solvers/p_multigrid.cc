@@ -31,7 +31,7 @@ namespace corotet
     // target = factor diagonal - that of S, at the nodes of S: in double
     // precision, as stiff springs have no stiffness along the surface.
     void
-    take_out_surface(dealii::LinearAlgebra::distributed::Vector<float> &target,
+    take_out_surface(Chebyshev::FloatVector       &target,
                      const Vector                 &diagonal,
                      const double                  factor,
                      const SurfaceOperator<float> &S)

@@ -154,6 +154,8 @@ TEST_F(AbaqusFile, RigidSurfacesAndBeams)
          "*SURFACE, TYPE=CYLINDER, NAME=die\nSTART, 0., 0.\nLINE, 1., 0.\n"
          "*SURFACE, NAME=front\nBody, S1\n");
   EXPECT_EQ(mesh.cells.size(), 2U);
+  EXPECT_EQ(MeshNames("edge", mesh.edge_names).known(), Known{"rod"});
+  EXPECT_EQ(MeshNames("boundary", mesh.boundaries).known(), Known{"front"});
   ASSERT_FALSE(mesh.remarks.empty());
   EXPECT_NE(mesh.remarks.back().find(
               "left out, as corotet reads the mesh only: *SURFACE, "

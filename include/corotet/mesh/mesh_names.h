@@ -48,7 +48,8 @@ namespace corotet
      * Makes @p name mean the members with the indices @p members in @p
      * id_of_member, which has pointers to the ids of all cells or faces. An id
      * that other members also have is split. All names and numbers keep their
-     * meaning. If @p name exists already, the members are added to it.
+     * meaning. If @p name exists already, the members are added to it. Members
+     * that are listed more than once count once.
      */
     void
     add(const std::string                 &name,

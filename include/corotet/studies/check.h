@@ -80,7 +80,7 @@ namespace corotet
     }
 
     /// Checks @p table, which must have the columns that the check was made
-    /// for.
+    /// for; throws std::logic_error if it has more or fewer.
     CheckResult
     evaluate(const ResultTable &table) const;
 

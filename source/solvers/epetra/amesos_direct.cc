@@ -7,14 +7,15 @@
 
 #include <Amesos.h>
 #include <Amesos_ConfigDefs.h>
+#include <Epetra_Vector.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #ifdef HAVE_AMESOS_MUMPS
 #  include <Amesos_Mumps.h>
 #endif
-#include <Epetra_Vector.h>
 
 namespace corotet
 {
