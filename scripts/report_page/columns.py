@@ -5,8 +5,8 @@
 import re
 
 # Units of columns of history.csv: (regular expression for the name, unit). The first expression that fits counts.
-UNITS = (("dt|(.*_)?time(_step)?", "s"), (".*energy|external_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
-         ("momentum_[xyz]", "kg m/s"), ("(internal|.*_reaction)_moment_[xyz]", "N m"), ("(.*_)?reaction_[xyz]", "N"), ("volume|mesh_volume", "m³"),
+UNITS = (("dt|(.*_)?time(_step)?", "s"), (".*energy|external_work|friction_work|energy_balance", "J"), ("angular_momentum_[xyz]", "kg m²/s"),
+         ("momentum_[xyz]", "kg m/s"), ("(internal|.*_reaction)_moment_[xyz]", "N m"), ("(.*_)?reaction_[xyz]|.*_contact_[xyz]", "N"), ("volume|mesh_volume", "m³"),
          (".*_stress_[xyz][xyz]|.*_von_mises", "Pa"), ("max_displacement|.*_[xyz]", "m"))
 # Units of names in modes.csv, study.csv and summary.json that UNITS does not give, or gives wrongly.
 OTHER_UNITS = {"frequency": "Hz", "angular_frequency": "rad/s", "eigenvalue": "1/s²", "modal_mass": "kg m²", "total_mass": "kg", "h": "m",
@@ -18,6 +18,7 @@ ERRORS = {"L2": "error in L2", "H1": "error in H1 (seminorm)", "energy": "error 
 NAMES = {
     "dt": "length of the last step", "time": "time", "dofs": "unknowns", "kinetic_energy": "kinetic energy", "elastic_energy": "elastic energy",
     "dissipated_energy": "dissipated energy", "external_work": "external work", "energy_balance": "energy balance",
+    "contact_energy": "energy of contact", "friction_work": "work of friction",
     "newton_iterations": "Newton iterations", "linear_iterations": "linear iterations", "max_displacement": "largest displacement of a node",
     "min_det_F": "smallest det F", "inverted_cells": "inverted cells", "volume": "volume, displaced", "mesh_volume": "volume at rest",
     "total_mass": "mass", "degenerate_cells": "degenerate cells", "robust_rotations": "rotations by singular values",
@@ -51,8 +52,8 @@ def name(column):
 
 
 def is_of_support(stem):
-    """Whether the columns of a vector are the force or the moment of a single support. `stem` is their name without _x, _y and _z."""
-    return stem.endswith(("_reaction", "_reaction_moment"))
+    """Whether the columns of a vector are the force or the moment of a single support or obstacle. `stem` is their name without _x, _y and _z."""
+    return stem.endswith(("_reaction", "_reaction_moment", "_contact"))
 
 
 def vectors(columns):

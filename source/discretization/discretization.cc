@@ -196,6 +196,20 @@ namespace corotet
                                                           unnamed_boundary}});
     for (const auto &[cell, face, boundary] : mesh.faces)
       boundaries[cell][face] = boundary;
+    // All cells around a vertex of an own cell are known.
+    std::vector<unsigned char> is_of_own_cell(mesh.vertices.size());
+    for (unsigned int c = 0; c < n_owned; ++c)
+      for (const unsigned int v : mesh.cells[local_mesh_cells[c]].vertices)
+        is_of_own_cell[v] = 1;
+    const auto is_beside_own_cell = [&](const unsigned int cell,
+                                        const unsigned int face) {
+      return std::any_of(
+        corners_of_faces[face].begin(),
+        corners_of_faces[face].end(),
+        [&](const unsigned int corner) {
+          return is_of_own_cell[mesh.cells[cell].vertices[corner]] != 0;
+        });
+    };
     double volume = 0;
     for (unsigned int c = 0; c < local_mesh_cells.size(); ++c)
       {
@@ -209,7 +223,8 @@ namespace corotet
                   surface.push_back(face);
                   faces_of_boundaries[face.boundary].push_back(face);
                 }
-              else if (face.boundary != unnamed_boundary)
+              else if (face.boundary != unnamed_boundary ||
+                       is_beside_own_cell(in_mesh, f))
                 // Other faces of ghost cells may be inside of the body, where
                 // the known part of the mesh ends.
                 surface_of_ghosts.push_back(face);

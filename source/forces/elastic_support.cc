@@ -109,11 +109,12 @@ namespace corotet
 
   void
   SurfaceForce::add_surface_matrix(SurfaceMatrix &S,
-                                   const double   time,
+                                   const Motion  &motion,
                                    const double   c_u,
                                    const double   c_v) const
   {
-    S.add(coefficient.matrix(time), depends_on_displacement() ? c_u : c_v);
+    S.add(coefficient.matrix(motion.time),
+          depends_on_displacement() ? c_u : c_v);
   }
 
   double

@@ -5,6 +5,7 @@
 #include <corotet/base/parameter_file.h>
 #include <corotet/base/text.h>
 #include <corotet/forces/body_force.h>
+#include <corotet/forces/contact.h>
 #include <corotet/forces/elastic_support.h>
 #include <corotet/forces/force_kind.h>
 #include <corotet/forces/gravity.h>
@@ -72,7 +73,8 @@ namespace corotet
        candidate<ForceKind, TractionKind>("traction"),
        candidate<ForceKind, PressureKind>("pressure"),
        candidate<ForceKind, RayleighDampingKind>("Rayleigh damping"),
-       candidate<ForceKind, SupportsKind>("supports")});
+       candidate<ForceKind, SupportsKind>("supports"),
+       candidate<ForceKind, ContactKind>("contact")});
   }
 
   namespace
@@ -129,6 +131,16 @@ namespace corotet
     for (const auto &kind : kinds)
       for (const ForceKind::GivenEntry &entry : kind->given())
         all.push_back(entry);
+    return all;
+  }
+
+  std::vector<std::string>
+  ForceParameters::obstacles() const
+  {
+    std::vector<std::string> all;
+    for (const auto &kind : kinds)
+      for (const std::string &name : kind->obstacles())
+        all.push_back(name);
     return all;
   }
 

@@ -150,7 +150,8 @@ namespace corotet
         {
           const double distance = part.vertices[vertices[ends[i][0]]].distance(
             part.vertices[vertices[ends[i][1]]]);
-          if (distance < length)
+          // Diagonals of a box have equal lengths; round-off must not choose.
+          if (distance < (1 - 1e-8) * length)
             {
               shortest = i;
               length   = distance;

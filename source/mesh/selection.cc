@@ -225,6 +225,11 @@ namespace corotet::selections
          named_values(text, entry, "'name: selection, name: selection'"))
       {
         const std::string name = without_quotes(item);
+        if (name.empty())
+          throw InputError(entry,
+                           fmt::format("a selection has no name: found '{}'; "
+                                       "allowed: 'name: selection'",
+                                       selection));
         if (is_taken(name))
           throw InputError(entry,
                            fmt::format("the mesh has this name, or another "

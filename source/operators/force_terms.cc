@@ -4,9 +4,10 @@
 #include <corotet/discretization/prescribed_motion.h>
 #include <corotet/operators/elastic_sweeps.h>
 #include <corotet/operators/force_terms.h>
-#include <corotet/operators/surface_matrix.h>
 
 #include <algorithm>
+
+#include "any_of.h"
 
 namespace corotet
 {
@@ -49,16 +50,6 @@ namespace corotet
     {
       return term.has_linearization() &&
              (tangent == Tangent::consistent || term.is_symmetric());
-    }
-
-    template <typename Choice>
-    bool
-    any_of(const std::vector<std::unique_ptr<ForceTerm>> &terms,
-           const Choice                                  &choice)
-    {
-      return std::any_of(terms.begin(), terms.end(), [&](const auto &term) {
-        return choice(*term);
-      });
     }
   } // namespace
 
@@ -228,6 +219,16 @@ namespace corotet
     });
   }
 
+  bool
+  ForceTerms::may_drive() const
+  {
+    return has_other_velocity_forces() ||
+           any_of(terms, [](const ForceTerm &term) {
+             return term.role() == Role::damping && !term.obstacle().empty() &&
+                    term.depends_on_time();
+           });
+  }
+
   MatrixShares
   ForceTerms::damping_shares() const
   {
@@ -239,61 +240,6 @@ namespace corotet
         sum.mass += shares.mass;
       }
     return sum;
-  }
-
-  bool
-  ForceTerms::has_surface_matrix() const
-  {
-    return any_of(terms, [](const ForceTerm &term) {
-      return term.has_surface_matrix();
-    });
-  }
-
-  bool
-  ForceTerms::has_springs() const
-  {
-    return any_of(terms, [](const ForceTerm &term) {
-      return term.has_surface_matrix() && term.depends_on_displacement();
-    });
-  }
-
-  bool
-  ForceTerms::has_surface_damping() const
-  {
-    return any_of(terms, [](const ForceTerm &term) {
-      return term.has_surface_matrix() && term.depends_on_velocity();
-    });
-  }
-
-  bool
-  ForceTerms::surface_matrix_depends_on_time() const
-  {
-    return any_of(terms, [](const ForceTerm &term) {
-      return term.has_surface_matrix() && term.depends_on_time();
-    });
-  }
-
-  void
-  ForceTerms::surface_matrix(SurfaceMatrix &S,
-                             const double   time,
-                             const double   c_u,
-                             const double   c_v) const
-  {
-    S.clear();
-    for (const auto &term : terms)
-      if (term->has_surface_matrix())
-        term->add_surface_matrix(S, time, c_u, c_v);
-  }
-
-  std::unique_ptr<SurfaceMatrix>
-  ForceTerms::springs(const ReferenceElement &reference,
-                      const double            time) const
-  {
-    if (!has_springs())
-      return nullptr;
-    auto S = std::make_unique<SurfaceMatrix>(discretization, reference);
-    surface_matrix(*S, time, 1., 0.);
-    return S;
   }
 
   bool

@@ -138,11 +138,18 @@ namespace corotet
     if (n_points == 0 || faces.size() != matrix.faces().size())
       find_nodes(matrix);
     tensors.resize(matrix.tensors().size());
+    active_faces.clear();
     for (std::size_t i = 0; i < tensors.size(); ++i)
-      tensors[i] = factor * matrix.tensors()[i];
+      {
+        tensors[i]              = factor * matrix.tensors()[i];
+        const unsigned int face = i / n_points;
+        if (tensors[i] != Tensor() &&
+            (active_faces.empty() || active_faces.back() != face))
+          active_faces.push_back(face);
+      }
 
     std::fill(blocks.begin(), blocks.end(), SurfaceMatrix::Tensor());
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const std::size_t f : active_faces)
       for (unsigned int k = 0; k < n_face_nodes; ++k)
         if (face_nodes[f * n_face_nodes + k] < nodes.n_owned_nodes())
           {
@@ -163,16 +170,16 @@ namespace corotet
   {
     constexpr unsigned int most    = 10;
     const unsigned int     n_owned = nodes.n_owned_nodes();
-    const unsigned int    *node    = face_nodes.data();
-    const Tensor          *D       = tensors.data();
     const T *const         X       = x.begin();
     T *const               Y       = y.begin();
     AssertIndexRange(n_face_nodes, most + 1);
-    for (const SurfaceMatrix::Face &face : faces)
+    for (const std::size_t f : active_faces)
       {
-        const double *N              = values[face.face].data();
-        double        u[3 * most]    = {};
-        double        sums[3 * most] = {};
+        const unsigned int *node           = &face_nodes[f * n_face_nodes];
+        const Tensor       *D              = &tensors[f * n_points];
+        const double       *N              = values[faces[f].face].data();
+        double              u[3 * most]    = {};
+        double              sums[3 * most] = {};
         for (unsigned int k = 0; k < n_face_nodes; ++k)
           for (unsigned int a = 0; a < 3; ++a)
             u[3 * k + a] = X[3 * node[k] + a];
@@ -191,7 +198,6 @@ namespace corotet
           if (node[k] < n_owned)
             for (unsigned int a = 0; a < 3; ++a)
               Y[3 * node[k] + a] += sums[3 * k + a];
-        node += n_face_nodes;
       }
   }
 

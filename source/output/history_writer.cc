@@ -113,8 +113,21 @@ namespace corotet
       }
   }
 
+  void
+  add_contact_columns(nlohmann::ordered_json &row, const StepRecord &record)
+  {
+    if (record.contact_forces.empty())
+      return;
+    Row &columns = row.get_ref<Row &>();
+    add(columns, "contact_energy", record.contact_energy);
+    add(columns, "friction_work", record.friction_work);
+    for (const auto &[obstacle, force] : record.contact_forces)
+      add_vector(columns, obstacle + "_contact", force);
+  }
+
   nlohmann::ordered_json
-  history_example(const OutputParameters &parameters)
+  history_example(const OutputParameters         &parameters,
+                  const std::vector<std::string> &obstacles)
   {
     const auto names        = names_of(parameters.probe_points());
     const auto stress_names = names_of(parameters.stress_probe_points());
@@ -126,6 +139,10 @@ namespace corotet
                          stress_names.size()));
     add_reaction_columns(
       row, supports, std::vector<SupportReactions::Reaction>(supports.size()));
+    StepRecord record;
+    for (const std::string &obstacle : obstacles)
+      record.contact_forces.emplace_back(obstacle, Tensor<1, 3>());
+    add_contact_columns(row, record);
     return row;
   }
 
@@ -156,6 +173,7 @@ namespace corotet
       add_reaction_columns(result,
                            reactions.names(),
                            reactions.reactions(state));
+    add_contact_columns(result, state.record);
     return result;
   }
 

@@ -54,12 +54,16 @@ namespace corotet
                                      "already",
                                      name,
                                      join({taken.begin(), taken.end()})));
-      for (const char *const end : {"_reaction", "_reaction_moment"})
+      for (const auto &[end, owners] :
+           {std::pair{"_reaction", "supports"},
+            std::pair{"_reaction_moment", "supports"},
+            std::pair{"_contact", "obstacles"}})
         if (name.ends_with(end))
           throw InputError(entry,
                            fmt::format("'{}' cannot be a probe's name; columns "
-                                       "of supports end with {}",
+                                       "of {} end with {}",
                                        name,
+                                       owners,
                                        end));
     }
 

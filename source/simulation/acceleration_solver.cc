@@ -180,9 +180,13 @@ namespace corotet
       }
     if (factor != damping_factor ||
         (time != damping_time &&
-         equation.terms.surface_matrix_depends_on_time()))
+         equation.terms.surface_matrix_depends_on_time()) ||
+        equation.terms.surface_matrix_depends_on_motion())
       {
-        equation.terms.surface_matrix(*surface, time, 0., factor);
+        equation.terms.surface_matrix(*surface,
+                                      equation.motion(time),
+                                      0.,
+                                      factor);
         damping_operator->set(*surface);
         damping_time   = time;
         damping_factor = factor;
@@ -222,7 +226,7 @@ namespace corotet
     equation.set_state(state);
     const Discretization &discretization = body.discretization;
     Elasticity           &elasticity     = body.elasticity;
-    const auto springs = equation.terms.springs(body.reference, time);
+    const auto springs = equation.terms.stiffest_springs(body.reference, time);
     SurfaceOperator<double> surface_stiffness(discretization);
     if (springs)
       surface_stiffness.set(*springs);

@@ -45,12 +45,19 @@ namespace corotet
     , body(equation.body)
     , force_terms(equation.terms)
     , is_staggered(staggered_step > 0)
+    , has_obstacles(!force_terms.obstacles().empty())
     , dt(staggered_step)
   {
     const std::size_t n_prescribed = body.motion.unknowns().size();
     body.discretization.initialize_vector(last.external);
     if (force_terms.has_damping())
       body.discretization.initialize_vector(last.damping);
+    if (force_terms.has_friction())
+      {
+        for (Vector *vector : {&friction, &last.friction})
+          body.discretization.initialize_vector(*vector);
+        find_friction();
+      }
     body.discretization.initialize_vector(last.displacement);
     last.carried.resize(n_prescribed);
     last.velocity.resize(n_prescribed);
@@ -105,6 +112,16 @@ namespace corotet
   }
 
   void
+  EnergyBudget::find_friction()
+  {
+    // Damping forces of explicit steps are completed after their evaluation.
+    if (force_terms.has_only_friction())
+      friction = equation.last_forces().damping;
+    else
+      force_terms.friction_force(friction, equation.last_motion());
+  }
+
+  void
   EnergyBudget::end_step(const State &state)
   {
     last.time = equation.last_time();
@@ -114,6 +131,8 @@ namespace corotet
     is_unloaded       = false;
     if (force_terms.has_damping())
       last.damping = equation.last_forces().damping;
+    if (friction.size() > 0)
+      last.friction = friction;
     const auto &prescribed = body.motion.unknowns();
     for (std::size_t k = 0; k < prescribed.size(); ++k)
       {
@@ -130,6 +149,8 @@ namespace corotet
     archive.transfer("external", forces.external);
     if (force_terms.has_damping())
       archive.transfer("damping", forces.damping);
+    if (friction.size() > 0)
+      archive.transfer("friction", forces.friction);
     archive.transfer("displacement", forces.displacement);
     // The values of prescribed unknowns are stored among all unknowns, as their
     // order depends on the partition.
@@ -154,6 +175,8 @@ namespace corotet
     archive.transfer("dt", dt);
     archive.transfer("work", work);
     archive.transfer("dissipation", dissipation);
+    if (friction.size() > 0)
+      archive.transfer("friction_work", friction_work);
     archive.transfer("initial_changing_energy", initial_changing_energy);
     archive.transfer("began_unloaded", began_unloaded);
     archive.transfer("is_unloaded", is_unloaded);
@@ -183,7 +206,7 @@ namespace corotet
     };
     // Asked once, as it loops over all terms.
     const bool         has_damping = force_terms.has_damping();
-    Tensor<1, 2>       sums;
+    Tensor<1, 3>       sums;
     const unsigned int n = state.u.locally_owned_size();
     for (unsigned int i = 0; i < n; ++i)
       sums[0] +=
@@ -191,6 +214,14 @@ namespace corotet
     if (has_damping)
       for (unsigned int i = 0; i < n; ++i)
         sums[1] += middle_damping(i) * du(i);
+    if (friction.size() > 0)
+      {
+        find_friction();
+        for (unsigned int i = 0; i < n; ++i)
+          sums[2] += (c * friction.local_element(i) +
+                      (1 - c) * last.friction.local_element(i)) *
+                     du(i);
+      }
     // Prescribed unknowns move with their own velocity.
     const std::size_t n_moving =
       equation.is_dynamic ? body.motion.unknowns().size() : 0;
@@ -210,18 +241,20 @@ namespace corotet
         "the forces at the end of the step are not finite" +
         equation.why_not_finite());
 
-    before = {{this->dt, work, dissipation}};
+    before = {{this->dt, work, dissipation, friction_work}};
     work += sums[0];
     dissipation += sums[1];
+    friction_work += sums[2];
     this->dt = dt;
   }
 
   void
   EnergyBudget::take_back()
   {
-    dt          = before[0];
-    work        = before[1];
-    dissipation = before[2];
+    dt            = before[0];
+    work          = before[1];
+    dissipation   = before[2];
+    friction_work = before[3];
     support_force_list.swap(support_forces_before);
   }
 
@@ -276,6 +309,10 @@ namespace corotet
       record.internal_moment +=
         cross_product_3d(position_at(n), vector_at(terms.internal, n));
 
+    if (has_obstacles)
+      record.contact_forces =
+        force_terms.contact(equation.last_motion()).forces;
+
     // Energies and momenta are those at the end of the step.
     equation.set_state(state);
     find_kinetic_energy(record, state);
@@ -316,10 +353,19 @@ namespace corotet
       throw ComputationError("the energy is not finite" +
                              equation.why_not_finite());
     describe_cells(record, elastic);
+    if (has_obstacles)
+      record.contact_energy = force_terms.contact(motion).energy;
+    record.friction_work = friction_work;
 
+    find_balance(record, motion);
+  }
+
+  void
+  EnergyBudget::find_balance(StepRecord &record, const Motion &motion) const
+  {
     const double external_work =
       work + force_terms.changing_energy(motion) - initial_changing_energy;
-    record.time              = time;
+    record.time              = motion.time;
     record.external_work     = external_work;
     record.dissipated_energy = dissipation;
     record.energy_balance    = record.kinetic_energy + record.elastic_energy +

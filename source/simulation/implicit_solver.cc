@@ -236,10 +236,11 @@ namespace corotet
   {
     if (!surface || (surface_factor == stage.velocity_factor &&
                      (surface_time == stage.time ||
-                      !equation.terms.surface_matrix_depends_on_time())))
+                      !equation.terms.surface_matrix_depends_on_time()) &&
+                     !equation.terms.surface_matrix_depends_on_motion()))
       return false;
     equation.terms.surface_matrix(*surface,
-                                  stage.time,
+                                  equation.motion(stage.time),
                                   1.,
                                   stage.velocity_factor);
     surface_time   = stage.time;
@@ -319,8 +320,11 @@ namespace corotet
           {
             built_stage = stage;
             // Linear laws have no rotations that depend on the displacement.
-            if (!body.law->is_linear())
+            if (!body.law->is_linear() ||
+                equation.terms.surface_matrix_depends_on_motion())
               built_displacement = stage_state->u;
+            if (equation.terms.has_friction())
+              built_velocity = stage_state->v;
             built_with_tangent = J != nullptr;
             built_tangent      = tangent;
           }

@@ -36,6 +36,8 @@ namespace corotet
       archive.transfer("acceleration_factor", built_stage.acceleration_factor);
       archive.transfer("load_factor", built_stage.load_factor);
       archive.transfer("displacement", built_displacement);
+      if (equation.terms.has_friction())
+        archive.transfer("velocity", built_velocity);
       archive.transfer("with_tangent", built_with_tangent);
       int kind = static_cast<int>(built_tangent);
       archive.transfer("tangent", kind);
@@ -58,6 +60,8 @@ namespace corotet
     // The displacement is empty with linear laws, where it does not matter.
     if (built_displacement.size() > 0)
       state.u = built_displacement;
+    if (built_velocity.size() > 0)
+      state.v = built_velocity;
     equation.set_state(state);
     stage = built_stage;
     update_effective_operator();

@@ -57,12 +57,24 @@ namespace corotet
       log.warning("Mesh: " + unconnected);
   }
 
+  std::unique_ptr<SurfaceMatrix>
+  Simulation::first_springs()
+  {
+    try
+      {
+        return system.equation().terms.springs(the_body.reference,
+                                               stepper.first_time());
+      }
+    catch (const WrongValueError &error)
+      {
+        throw InputError(error.cause);
+      }
+  }
+
   void
   Simulation::check_supports()
   {
-    // The springs at the first time that is solved for.
-    const auto springs =
-      system.equation().terms.springs(the_body.reference, stepper.first_time());
+    const auto         springs = first_springs();
     const RigidMotions free_motions(the_body.discretization,
                                     the_body.motion,
                                     springs ?
@@ -70,18 +82,15 @@ namespace corotet
                                       std::vector<RigidMotions::Spring>());
     the_body.is_one_piece     = free_motions.n_parts() == 1;
     const std::string motions = free_motions.description();
+    if (motions.empty() && springs)
+      warn_of_weak_springs(the_body, springs->springs(), log);
     if (motions.empty())
-      {
-        if (springs)
-          warn_of_weak_springs(the_body, springs->springs(), log);
-        return;
-      }
-    const bool is_made = the_body.problem.makes_data();
-    const bool has_supports =
-      springs || !system.equation().terms.names_of_damping().empty();
-    const std::string entries = has_supports ?
-                                  "Fixed, Displacement and Supports" :
-                                  "Fixed and Displacement";
+      return;
+    const bool        is_made = the_body.problem.makes_data();
+    const std::string entries =
+      springs || !system.equation().terms.names_of_damping().empty() ?
+        "Fixed, Displacement and Supports" :
+        "Fixed and Displacement";
     throw InputError(is_made ? "Exact solution/Displacement boundary" :
                                "Boundary conditions/Fixed",
                      fmt::format("statics needs a body that cannot move "

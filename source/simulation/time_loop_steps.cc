@@ -130,6 +130,7 @@ namespace corotet
       return false;
     const EquationOfMotion &equation = system.equation();
     if (equation.terms.surface_matrix_depends_on_time() ||
+        equation.terms.surface_matrix_depends_on_motion() ||
         equation.terms.has_linearization(Tangent::consistent))
       return false;
     Vector difference(present.u);
@@ -285,8 +286,9 @@ namespace corotet
       std::abs(record.kinetic_energy) + record.elastic_energy;
     const bool is_visible = record.max_displacement >
                             1e-3 * std::cbrt(budget->initial_record().volume);
-    // Forces of programs that depend on the velocity may drive the body.
-    const double driven = system.equation().terms.has_other_velocity_forces() ?
+    // Forces of programs that depend on the velocity may drive the body, and
+    // so may friction on obstacles that move.
+    const double driven = system.equation().terms.may_drive() ?
                             std::max(-record.dissipated_energy, 0.) :
                             0.;
     energy_supply       = std::max(energy_supply,

@@ -202,7 +202,8 @@ namespace corotet
                              results.size(),
                              cases.size(),
                              one.name(),
-                             describe(results.back())));
+                             describe(results.back(),
+                                      results.back().study_case.name())));
         n_failed += results.back().status == "done" ? 0 : 1;
         if (!failure_of_finer_run.empty())
           {

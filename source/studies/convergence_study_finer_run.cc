@@ -106,7 +106,8 @@ namespace corotet
       {
         result = failed_result(finer_case(), error);
       }
-    log.line("Finer run, " + finer_case().name() + ": " + describe(result));
+    log.line("Finer run, " + finer_case().name() + ": " +
+             describe(result, "finer_run"));
     if (result.status != "done")
       {
         failure_of_finer_run = "the finer run has failed: " + result.message;

@@ -248,8 +248,8 @@ namespace corotet
       run_simulation()
       {
         const OutputParameters &output = parameters.output;
-        parameters.verification.initialize(
-          column_names(history_example(output)));
+        parameters.verification.initialize(column_names(
+          history_example(output, parameters.simulation.forces.obstacles())));
         Simulation simulation(parameters.simulation, file.folder(), comm, log);
         const auto observers =
           make_observers(output,
@@ -288,7 +288,7 @@ namespace corotet
               // The run has not ended any longer.
               on_root(comm, [&] {
                 for (const char *const name :
-                     {"summary.json", "verification.csv"})
+                     {"summary.json", "verification.csv", "report.html"})
                   std::filesystem::remove(directory + "/" + name);
               });
             }

@@ -222,14 +222,18 @@ namespace corotet
                                                file.folder(),
                                                comm,
                                                log);
-    // Checks the quantities before the work starts.
-    pick(simulated ? history_example(parameters.output) : frequencies());
+    // Checks the columns and the quantities before the work starts.
+    if (simulated)
+      columns.emplace(parameters.output, simulated->body(), log);
+    pick(simulated ? history_example(parameters.output,
+                                     parameters.simulation.forces.obstacles()) :
+                     frequencies());
   }
 
   StudyRun::~StudyRun() = default;
 
   std::string
-  describe(const StudyResult &result)
+  describe(const StudyResult &result, const std::string &log_name)
   {
     std::string text = fmt::format("{} cells, {} unknowns, {:.2f} s",
                                    result.cells,
@@ -238,9 +242,7 @@ namespace corotet
     if (result.errors)
       text += fmt::format(", L2 error {:.3e}", result.errors->error.L2);
     if (!result.worth_a_look.empty())
-      text += fmt::format(", {} in rows/{}.log",
-                          result.worth_a_look,
-                          result.study_case.name());
+      text += fmt::format(", {} in rows/{}.log", result.worth_a_look, log_name);
     return result.status == "done" ? text :
                                      text + ", failed: " + result.message;
   }
@@ -283,8 +285,7 @@ namespace corotet
                      const bool         saves_end)
   {
     std::vector<std::unique_ptr<Observer>> observers;
-    observers.push_back(std::make_unique<LastRow>(
-      HistoryColumns(parameters.output, simulated->body(), log)));
+    observers.push_back(std::make_unique<LastRow>(*columns));
     const auto &last = static_cast<const LastRow &>(*observers.front());
     // Iterations are counted in all steps; explicit steps have none.
     const bool is_explicit =

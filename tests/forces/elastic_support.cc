@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-// Springs and dashpots on the surface: their forces, energies and matrices, on
-// straight and curved faces, for each element and each level of p-multigrid.
+// Forces, energies and matrices of springs and dashpots, on all elements.
 
 #include <corotet/base/exceptions.h>
 #include <corotet/discretization/coarser_nodes.h>
@@ -46,7 +45,8 @@ namespace
   surface_matrix(const MovingBody &body, const double c_u, const double c_v)
   {
     SurfaceMatrix matrix(body.discretization, body.reference);
-    body.system.equation().terms.surface_matrix(matrix, 0., c_u, c_v);
+    auto         &equation = body.system.equation();
+    equation.terms.surface_matrix(matrix, equation.motion(0.), c_u, c_v);
     return matrix;
   }
 

@@ -29,10 +29,12 @@ SHORTER = {
     "bracket": (*LOAD_STEPS, "Mesh/gmsh/Element size = 0.01"),
     "clip": ("Time integration/End time = 1e-4",),
     "cantilever": ("Time integration/End time = 0.02",),
+    "crushed_ring": ("Time integration/End time = 8e-3", "Discretization/Degree = 2"),
     "crushed_cube": ("Time integration/End time = 0.6",),
     "elastica": (*LOAD_STEPS, "Boundary conditions/Traction = x-max: 0; 0; -800"),
     "gravity_corotational": (*LOAD_STEPS, "Loads/Gravity = 0; 0; -1"),
     "gravity_linear": LOAD_STEPS,
+    "gripper": ("Time integration/End time = 5e-3",),
     "gyroid": (*LOAD_STEPS, "Mesh/file/Element size = 2",),
     "lame_sphere": LOAD_STEPS,
     "machine_foundation": ("Time integration/End time = 0.02",),
@@ -44,6 +46,7 @@ SHORTER = {
     "rubber_mount": (*LOAD_STEPS, "Mesh/file/Element size = 10"),
     "spinning_bar": ("Time integration/End time = 0.006283185307179586",),
     "spring": ("Time integration/End time = 0.012",),
+    "stairs": ("Time integration/End time = 4e-3",),
     "thin_hoop": ("Time integration/End time = 4e-4", "Discretization/Degree = 2"),
     "trefoil": ("Time integration/End time = 0.02", "Discretization/Degree = 1"),
     "tuning_fork": ("Time integration/End time = 8e-5", "Output/Time between results = 0"),
@@ -66,7 +69,9 @@ class Cases(ProgramTest):
             return
         self.check_summary(read_summary(first), read_history(first))
         probes = re.findall(r"(\w+):", re.search(r"set Probes\s*=(.*)", text).group(1))
-        self.check_columns(first, probes)
+        section = re.search(r"subsection Contact\n(.*?)\n *set Motions|subsection Contact\n(.*?)\nend", text, re.DOTALL)
+        obstacles = re.findall(r"(\w+): *(?:plane|box)", section[0]) if section else []
+        self.check_columns(first, probes, obstacles)
         self.assertEqual([row["step"] for row in read_history(first)], [str(i) for i in range(N_STEPS + 1)])
         self.assertIn("Results are in", (first / "log.txt").read_text(encoding="utf-8"))
         self.check_vtkhdf(first)
@@ -90,10 +95,11 @@ class Cases(ProgramTest):
         self.run_program(first / "parameters.prm", "--output", "second")
         self.assertEqual(read_modes(self.folder / "second"), rows)
 
-    def check_columns(self, directory, probes):
+    def check_columns(self, directory, probes, obstacles):
         header = (directory / "history.csv").read_text(encoding="utf-8").splitlines()[0].split(",")
         self.assertGreater(len(probes), 0)
-        self.assertEqual(header, COLUMNS + [f"{name}_{c}" for name in probes for c in "xyz"] + COLUMNS_AFTER_PROBES)
+        self.assertEqual(header, COLUMNS + [f"{name}_{c}" for name in probes for c in "xyz"] + COLUMNS_AFTER_PROBES +
+                         (["contact_energy", "friction_work"] if obstacles else []) + [f"{name}_contact_{c}" for name in obstacles for c in "xyz"])
 
     def check_summary(self, summary, rows):
         self.assertEqual([key for key in summary if key not in ("error_estimate", "largest_rotation_difference")], SUMMARY_KEYS)

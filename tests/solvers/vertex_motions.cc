@@ -55,7 +55,8 @@ namespace
       if (has_springs)
         {
           springs.clear();
-          body.system.equation().terms.surface_matrix(springs, 0., 1., 0.);
+          body.system.equation().terms.surface_matrix(
+            springs, body.system.equation().motion(0.), 1., 0.);
           surface.set(springs);
         }
       A.update(1., c_M);

@@ -156,7 +156,8 @@ namespace corotet
       return found == faces_of_boundaries.end() ? none : found->second;
     }
 
-    /// The faces of ghost cells on boundaries that have a number in the mesh.
+    /// The faces of ghost cells on boundaries that have a number in the mesh,
+    /// and those on the rest of the surface that have a corner of an own cell.
     const std::vector<BoundaryFace> &
     ghost_boundary_faces() const
     {

@@ -105,7 +105,7 @@ namespace corotet
 
     void
     add_surface_matrix(SurfaceMatrix &S,
-                       const double   time,
+                       const Motion  &motion,
                        const double   c_u,
                        const double   c_v) const override;
 

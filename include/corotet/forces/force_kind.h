@@ -105,6 +105,13 @@ namespace corotet
       return {};
     }
 
+    /// The names of the obstacles of its terms. Throws InputError.
+    virtual std::vector<std::string>
+    obstacles() const
+    {
+      return {};
+    }
+
     /// Adds the terms that the parameters ask for; none if there is no force.
     /// Throws InputError. Collective.
     virtual void
@@ -126,6 +133,10 @@ namespace corotet
     /// The entries of all kinds that give a force. Throws InputError.
     std::vector<ForceKind::GivenEntry>
     given() const;
+
+    /// The names of the obstacles of all kinds. Throws InputError.
+    std::vector<std::string>
+    obstacles() const;
 
     /// The terms of all kinds. Throws InputError. Collective.
     ForceTerms

@@ -6,6 +6,8 @@
 
 #include <corotet/base/vector.h>
 
+#include <string>
+
 namespace corotet
 {
   class ForceRoundOff;
@@ -134,17 +136,43 @@ namespace corotet
       return false;
     }
 
+    /// Whether add_surface_matrix() adds a matrix that depends on the motion,
+    /// and not only on time. It is no support then, neither in modes nor in
+    /// the check of supports in statics.
+    virtual bool
+    surface_matrix_depends_on_motion() const
+    {
+      return false;
+    }
+
     /// Adds - (@p c_u df/du + @p c_v df/dv) to @p S, if it is a symmetric,
-    /// positive semi-definite matrix of the surface that depends on time only.
-    /// It is included in steps of all kinds, preconditioners, stable steps,
-    /// modes, and the check of supports in statics. Only for elastic terms and
-    /// dampers. Throws ComputationError. Collective.
+    /// positive semi-definite matrix of the surface. If it depends on the
+    /// motion, it may be stiffer, with the difference in add_linearized(), but
+    /// must have f = - C v for its part of v. It is included in steps of
+    /// all kinds, preconditioners, stable steps, modes, and the check of
+    /// supports in statics. Only for elastic terms and dampers. Throws
+    /// ComputationError. Collective.
     virtual void
     add_surface_matrix(SurfaceMatrix & /*S*/,
-                       const double /*time*/,
+                       const Motion & /*motion*/,
                        const double /*c_u*/,
                        const double /*c_v*/) const
     {}
+
+    /// For matrices that depend on the motion: changes @p S such that it is no
+    /// less stiff than - df/du at any motion.
+    virtual void
+    add_largest_surface_matrix(SurfaceMatrix & /*S*/,
+                               const double /*time*/) const
+    {}
+
+    /// The name of the rigid obstacle that exerts this force, for which the
+    /// history has columns; empty for other forces.
+    virtual std::string
+    obstacle() const
+    {
+      return "";
+    }
 
     /// Whether add_linearized() has more to add than damping_shares() and
     /// add_surface_matrix().

@@ -98,6 +98,11 @@ namespace corotet
     bool
     has_other_velocity_forces() const;
 
+    /// Whether damping may do work on the body: other velocity forces, and
+    /// friction of obstacles that move.
+    bool
+    may_drive() const;
+
     /// The parts of the terms' - df/dv that consist of the body's matrices.
     MatrixShares
     damping_shares() const;
@@ -106,7 +111,8 @@ namespace corotet
     bool
     has_surface_matrix() const;
 
-    /// Whether surface_matrix() has terms that depend on the displacement.
+    /// Whether surface_matrix() has terms that depend on the displacement and
+    /// are supports.
     bool
     has_springs() const;
 
@@ -117,18 +123,55 @@ namespace corotet
     bool
     surface_matrix_depends_on_time() const;
 
+    bool
+    surface_matrix_depends_on_motion() const;
+
     /// @p S = - (@p c_u df/du + @p c_v df/dv) of the terms that have such a
     /// matrix. Throws ComputationError.
     void
     surface_matrix(SurfaceMatrix &S,
-                   const double   time,
+                   const Motion  &motion,
                    const double   c_u,
                    const double   c_v) const;
 
-    /// The springs of all terms at a time, as a matrix of the surface; null if
-    /// there are none.
+    /// The springs of all supports at a time, as a matrix of the surface; null
+    /// if there are none.
     std::unique_ptr<SurfaceMatrix>
     springs(const ReferenceElement &reference, const double time) const;
+
+    /// The springs of all terms at a time, no less stiff than at any motion;
+    /// null if there are none.
+    std::unique_ptr<SurfaceMatrix>
+    stiffest_springs(const ReferenceElement &reference,
+                     const double            time) const;
+
+    /// The names of all obstacles, without repetition.
+    std::vector<std::string>
+    obstacles() const;
+
+    /// What obstacles do.
+    struct ContactState
+    {
+      /// The name of each obstacle, and its force on the body [N].
+      std::vector<std::pair<std::string, dealii::Tensor<1, 3>>> forces;
+      /// The energy of their pressure [J].
+      double energy = 0;
+    };
+
+    ContactState
+    contact(const Motion &motion) const;
+
+    /// Whether obstacles have damping.
+    bool
+    has_friction() const;
+
+    /// Whether no other term has damping.
+    bool
+    has_only_friction() const;
+
+    /// f = minus the damping forces of obstacles.
+    void
+    friction_force(Vector &f, const Motion &motion) const;
 
     /// Names of the terms whose forces act on no unknowns but those that
     /// supports prescribe, in all of these motions, which should move every

@@ -54,6 +54,16 @@ namespace corotet
     void
     add(const unsigned int boundary, const Function &per_area);
 
+    /// The D_q of the faces of a boundary, [face][point]: first own faces, then
+    /// those of ghost cells, both in the order of the discretization. Valid
+    /// until another boundary is added.
+    Tensor *
+    tensors_of(const unsigned int boundary)
+    {
+      const std::size_t first = first_face(boundary);
+      return all_tensors.data() + points_per_face() * first;
+    }
+
     /// Adds @p factor times another matrix.
     void
     add(const SurfaceMatrix &other, const double factor);
@@ -206,6 +216,8 @@ namespace corotet
     /// Local numbers of the faces' nodes, [face][k].
     std::vector<unsigned int> face_nodes;
     std::vector<Tensor>       tensors;
+    /// The faces that have a tensor other than zero.
+    std::vector<unsigned int> active_faces;
 
     std::vector<unsigned int>          rows;
     std::vector<SurfaceMatrix::Tensor> blocks;
@@ -219,7 +231,7 @@ namespace corotet
   void
   SurfaceOperator<T>::for_each_block(const Function &function) const
   {
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const std::size_t f : active_faces)
       {
         const auto   &N     = values[faces[f].face];
         const auto   &nodes = reference.face_nodes[faces[f].face];

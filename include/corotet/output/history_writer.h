@@ -36,6 +36,10 @@ namespace corotet
     const std::vector<std::string>                   &names,
     const std::vector<dealii::SymmetricTensor<2, 3>> &stresses);
 
+  /// Adds the columns of contact; none if there are no obstacles.
+  void
+  add_contact_columns(nlohmann::ordered_json &row, const StepRecord &record);
+
   /**
    * The objects with additional columns for a row of the history.
    */
@@ -46,8 +50,8 @@ namespace corotet
       : probes(probes)
     {}
 
-    /// Has all columns that @p parameters ask for. Throws InputError.
-    /// Collective.
+    /// Has all columns that @p parameters ask for.
+    /// Throws InputError. Collective.
     HistoryColumns(const OutputParameters &parameters,
                    const Body             &body,
                    Log                    &log);
@@ -62,10 +66,12 @@ namespace corotet
   };
 
   /**
-   * A row as history.csv has it with these @p parameters, for a body at rest.
+   * A row as history.csv has it with these @p parameters and @p obstacles, for
+   * a body at rest.
    */
   nlohmann::ordered_json
-  history_example(const OutputParameters &parameters);
+  history_example(const OutputParameters         &parameters,
+                  const std::vector<std::string> &obstacles);
 
   /**
    * Writes history.csv: a row per step, step 0 included, each complete in the

@@ -126,8 +126,9 @@ namespace corotet
       /// Forces that work along the displacement: loads on free unknowns, and
       /// elastic forces on prescribed ones, with those of force terms.
       Vector external;
-      /// Damping forces on all unknowns.
-      Vector damping;
+      /// Damping forces on all unknowns, and the part of friction; the latter
+      /// is empty if there is none.
+      Vector damping, friction;
       /// The displacement at the end of the step.
       Vector displacement;
       /// Inertia plus damping forces, and velocities at the end of the step, of
@@ -145,6 +146,13 @@ namespace corotet
     carried(const unsigned int i) const;
     double
     external(const unsigned int i) const;
+    /// Finds works and the balance, with the energies of the record.
+    /// Collective.
+    void
+    find_balance(StepRecord &record, const Motion &motion) const;
+    /// Finds the friction of the last evaluation. Collective.
+    void
+    find_friction();
     /// Finds the kinetic energies of this rank, and the momentum of each node.
     void
     find_kinetic_energy(StepRecord &record, const State &state);
@@ -155,6 +163,7 @@ namespace corotet
     const Body       &body;
     const ForceTerms &force_terms;
     const bool        is_staggered;
+    const bool        has_obstacles;
     /// The length of the last step, and its forces.
     double     dt;
     StepForces last;
@@ -165,15 +174,19 @@ namespace corotet
     double initial_changing_energy = 0;
     /// Whether the account began, and whether its next step begins, at rest
     /// with the forces that act there instead of the guess.
-    bool       began_unloaded     = false;
-    bool       is_unloaded        = false;
-    double     dissipation        = 0;
+    bool   began_unloaded = false;
+    bool   is_unloaded    = false;
+    double dissipation    = 0;
+    double friction_work  = 0;
+    /// Friction of the last evaluation; empty if there is none.
+    Vector     friction;
     double     energy_of_supports = 0;
     StepRecord initial;
     /// What the supports did in the last record(), and in the one before.
     std::vector<SupportForce> support_force_list, support_forces_before;
-    /// Values of dt, work and dissipation before the last add_work().
-    std::array<double, 3> before{};
+    /// Values of dt, work, dissipation and work of friction before the last
+    /// add_work().
+    std::array<double, 4> before{};
   };
 } // namespace corotet
 

@@ -213,6 +213,8 @@ namespace corotet
     /// the displacement is empty if the law is linear.
     Stage  built_stage = {};
     Vector built_displacement;
+    /// The velocity; empty if no matrix depends on it.
+    Vector built_velocity;
     /// Whether solves used the tangent operator then, and which tangent.
     bool    built_with_tangent = false;
     Tangent built_tangent      = Tangent::consistent;

@@ -182,6 +182,10 @@ namespace corotet
     /// without a support do.
     void
     check_supports();
+    /// The springs of supports at the first time that is solved for; null if
+    /// there are none. Throws InputError.
+    std::unique_ptr<SurfaceMatrix>
+    first_springs();
     /// Runs @p action. If that fails, observers are told so.
     void
     guarded(const std::function<void()> &action);

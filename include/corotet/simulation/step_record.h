@@ -8,6 +8,10 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace corotet
 {
   /**
@@ -68,6 +72,14 @@ namespace corotet
     /// [N m]: zero for a law that conserves angular momentum.
     dealii::Tensor<1, 3> internal_moment;
 
+    /// Energy of the pressure of obstacles, a part of the elastic energy [J].
+    double contact_energy = 0;
+    /// What friction has taken of the dissipated energy [J].
+    double friction_work = 0;
+    /// The names of obstacles, and their forces on the body [N].
+    std::vector<std::pair<std::string, dealii::Tensor<1, 3>>> contact_forces;
+
+    /// Transfers all but what obstacles do.
     void
     transfer(Archive &archive);
   };

@@ -5,6 +5,7 @@
 #define corotet_studies_study_run_h
 
 #include <corotet/base/parameter_file.h>
+#include <corotet/output/history_writer.h>
 #include <corotet/simulation/modal_analysis.h>
 #include <corotet/simulation/simulation.h>
 #include <corotet/studies/run_parameters.h>
@@ -56,9 +57,10 @@ namespace corotet
     std::string worth_a_look;
   };
 
-  /// A text for the log: the size of a run, its cost, and its end.
+  /// A text for the log: the size of a run, its cost, and its end; its own log
+  /// is rows/@p log_name.log.
   std::string
-  describe(const StudyResult &result);
+  describe(const StudyResult &result, const std::string &log_name);
 
   nlohmann::ordered_json
   result_to_json(const StudyResult &result);
@@ -150,6 +152,8 @@ namespace corotet
     Log                            log;
     std::unique_ptr<Simulation>    simulated;
     std::unique_ptr<ModalAnalysis> analysis;
+    /// The columns of a simulation.
+    std::optional<HistoryColumns> columns;
   };
 } // namespace corotet
 
