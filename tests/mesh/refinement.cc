@@ -89,6 +89,29 @@ TEST(Refinement, IsDealIIs)
   EXPECT_EQ(named_faces_of(mesh), named_faces_of(expected));
 }
 
+// Boxes have cells with diagonals of equal lengths, between which round-off
+// must not choose: in other units and at another place they are cut alike.
+TEST(Refinement, OfBoxesAlikeInAllUnits)
+{
+  const auto cells_of = [](const double unit, const double shift) {
+    SerialMesh mesh = box_of_2_by_half_by_1("5, 3, 7");
+    for (dealii::Point<3> &x : mesh.vertices)
+      for (unsigned int d = 0; d < 3; ++d)
+        x[d] = unit * (x[d] + shift);
+    refine_uniformly(mesh, 2);
+    std::vector<unsigned int> vertices;
+    for (const MeshCells::Cell &cell : mesh.cells)
+      vertices.insert(vertices.end(),
+                      cell.vertices.begin(),
+                      cell.vertices.end());
+    return vertices;
+  };
+  const std::vector<unsigned int> expected = cells_of(1, 0);
+  for (const double unit : {1., 1e3, 1e-3, 0.3048})
+    for (const double shift : {0., 3., -0.7})
+      EXPECT_EQ(cells_of(unit, shift), expected) << unit << ' ' << shift;
+}
+
 // Each rank refines its own cells: together they have those of the whole mesh,
 // and know the vertices that they share by the same numbers, which no other
 // vertices have.

@@ -259,6 +259,9 @@ namespace
     EXPECT_EQ(refusal([] { with(box(), "x-max: x-min"); }),
               "Selections/Boundaries: the mesh has this name, or another "
               "selection: found 'x-max'; give another one");
+    EXPECT_EQ(refusal([] { with(box(), ": x-min"); }),
+              "Selections/Boundaries: a selection has no name: found 'x-min'; "
+              "allowed: 'name: selection'");
     EXPECT_EQ(refusal([] { with(box(), "x-min"); }),
               "Selections/Boundaries: found 'x-min'; allowed: "
               "'name: selection, name: selection'");

@@ -61,6 +61,15 @@ class ExitStatus(ProgramTest):
         self.check_message(run, "step 4", "Loads/Gravity", "not finite")
         self.assertEqual(read_summary(self.folder / "results")["steps"], 3)
 
+    def test_springs_of_the_first_load_step(self):
+        # The springs are right at the start, but not where statics begins.
+        settings = ("Time integration/Type = static", "Time integration/static/Load steps = 1", "Time integration/End time = 0.04",
+                    "Supports/Elastic = z-max: 0.02 - t; 0; 0")
+        for words in ((), ("--validate",)):
+            run = self.run_small(*settings, status=1, words=words)
+            self.check_message(run, "Supports/Elastic: found the value -0.02 at")
+            self.assertFalse((self.folder / "results").exists())
+
     def test_supports_that_disagree_on_the_way(self):
         # This motion vanishes at the times that are checked before the start,
         # but not between.

@@ -446,6 +446,8 @@ end
             ("Loads/Gravity = 0; 0; -9.81", "Loads/Gravity: found '0; 0; -9.81', but the data are made"),
             ("Initial conditions/Velocity = 0;0;x", "Initial conditions/Velocity: found '0;0;x', but the data are made from the exact solution; allowed: '0; 0; 0', or"),
             ("Convergence study/Run = modes", "found 'exact solution' for modes"),
+            ("Output/Probes = q: 9 9 9", "Output/Probes: probe 'q' at (9, 9, 9) lies outside the body"),
+            ("Output/Stress probes = q: 9 9 9", "Output/Stress probes: probe 'q' at (9, 9, 9) lies outside the body"),
         ):
             with self.subTest(setting):
                 self.assertIn(message, self.study(EXACT, "--set", setting, status=1).stderr)
