@@ -93,11 +93,14 @@ TEST(Refinement, IsDealIIs)
 // must not choose: in other units and at another place they are cut alike.
 TEST(Refinement, OfBoxesAlikeInAllUnits)
 {
-  const auto cells_of = [](const double unit, const double shift) {
-    SerialMesh mesh = box_of_2_by_half_by_1("5, 3, 7");
-    for (dealii::Point<3> &x : mesh.vertices)
-      for (unsigned int d = 0; d < 3; ++d)
-        x[d] = unit * (x[d] + shift);
+  const auto cells_of = [](const std::string &size, const std::string &origin) {
+    BoxMesh                  source;
+    dealii::ParameterHandler prm;
+    source.declare_parameters(prm);
+    prm.set("Size", size);
+    prm.set("Cells", "4, 2, 1");
+    prm.set("Origin", origin);
+    SerialMesh mesh = source.create("");
     refine_uniformly(mesh, 2);
     std::vector<unsigned int> vertices;
     for (const MeshCells::Cell &cell : mesh.cells)
@@ -106,10 +109,12 @@ TEST(Refinement, OfBoxesAlikeInAllUnits)
                       cell.vertices.end());
     return vertices;
   };
-  const std::vector<unsigned int> expected = cells_of(1, 0);
-  for (const double unit : {1., 1e3, 1e-3, 0.3048})
-    for (const double shift : {0., 3., -0.7})
-      EXPECT_EQ(cells_of(unit, shift), expected) << unit << ' ' << shift;
+  const std::string               size = "0.8, 0.4, 0.3", origin = "0, 0, 0";
+  const std::vector<unsigned int> expected = cells_of(size, origin);
+  EXPECT_EQ(cells_of("800, 400, 300", origin), expected);
+  EXPECT_EQ(cells_of("0.8, 0.4000000000001, 0.3", origin), expected);
+  EXPECT_EQ(cells_of(size, "3, 0, 0"), expected);
+  EXPECT_EQ(cells_of(size, "0, -2, 0"), expected);
 }
 
 // Each rank refines its own cells: together they have those of the whole mesh,
