@@ -77,13 +77,15 @@ def history_charts(run):
     own = {"momentum", "angular_momentum", "reaction", "internal_moment"}
     for stem in columns.vectors(table):
         if columns.is_of_support(stem):
-            support, _, what = stem.rpartition("_reaction")
-            add(stem, f"{'Moment about the origin' if what else 'Reaction'} of {support}", [f"{stem}_{c}" for c in "xyz"])
+            support, _, what = stem.rpartition("_contact" if stem.endswith("_contact") else "_reaction")
+            kind = "Force" if stem.endswith("_contact") else "Moment about the origin" if what else "Reaction"
+            add(stem, f"{kind} of {support}", [f"{stem}_{c}" for c in "xyz"])
         elif stem not in own:
             add(f"probe-{stem}", f"Displacement of {stem}", [f"{stem}_{c}" for c in "xyz"])
     for column in table:
         if column.endswith("_von_mises"):
             add(f"stress-{column}", f"Von Mises stress at {column[:-len('_von_mises')]}", [column])
+    add("contact", "Contact: energy of the pressure, work of friction", ["contact_energy", "friction_work"])
     add("reaction", "Reaction of the supports", [f"reaction_{c}" for c in "xyz"])
     add("iterations", "Iterations of each step", ["newton_iterations", "linear_iterations"], points=True)
     for name, title, names in (("displacement", "Largest displacement", ["max_displacement"]), ("momentum", "Momentum", [f"momentum_{c}" for c in "xyz"]),

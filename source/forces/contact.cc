@@ -29,31 +29,34 @@ namespace corotet
     }
   } // namespace
 
-  ContactSurface::ContactSurface(const ForceContext &context)
+  ContactSurface::ContactSurface(const ForceContext           &context,
+                                 const std::set<unsigned int> &touching)
     : discretization(context.discretization)
     , reference(context.reference)
     , n_points(context.reference.face_rules[0].weights.size())
   {
-    double                 area = 0;
-    std::set<unsigned int> ids;
     const auto             lists = {&discretization.boundary_faces(),
                                     &discretization.ghost_boundary_faces()};
-    for (const auto *list : lists)
-      for (const BoundaryFace &face : *list)
-        ids.insert(face.boundary);
+    std::set<unsigned int> ids   = touching;
+    if (ids.empty())
+      for (const auto *list : lists)
+        for (const BoundaryFace &face : *list)
+          ids.insert(face.boundary);
     for (const unsigned int id : ids)
       {
         const std::size_t first = faces.size();
         for (const auto *list : lists)
           for (const BoundaryFace &face : *list)
             if (face.boundary == id)
-              {
-                const double of_face = add(face, context.elasticity);
-                if (face.cell < discretization.n_owned_cells())
-                  area += of_face;
-              }
+              add(face, context.elasticity);
         boundaries.push_back({id, first, faces.size() - first});
       }
+    double area = 0;
+    for (const BoundaryFace &face : discretization.boundary_faces())
+      for_each_surface_point(
+        discretization, reference, face, nullptr, [&](const SurfacePoint &at) {
+          area += at.area.norm();
+        });
     thickness =
       2 * discretization.volume() /
       dealii::Utilities::MPI::sum(area, discretization.communicator());
@@ -66,7 +69,7 @@ namespace corotet
     return 10 * face.youngs_modulus / face.size * relative * relative;
   }
 
-  double
+  void
   ContactSurface::add(const BoundaryFace &face, const Elasticity &elasticity)
   {
     double       area = 0;
@@ -92,7 +95,6 @@ namespace corotet
                      face.face,
                      2 * material.mu * (1 + poissons_ratio(material)),
                      std::max(height, std::sqrt(2 * area))});
-    return area;
   }
 
   std::pair<double, double>

@@ -20,11 +20,12 @@ namespace corotet
 {
   namespace
   {
-    const std::string obstacles_entry = "Contact/Obstacles",
-                      motions_entry   = "Contact/Motions",
-                      stiffness_entry = "Contact/Stiffness",
-                      friction_entry  = "Contact/Friction",
-                      slip_entry      = "Contact/Slip velocity";
+    const std::string obstacles_entry  = "Contact/Obstacles",
+                      boundaries_entry = "Contact/Boundaries",
+                      motions_entry    = "Contact/Motions",
+                      stiffness_entry  = "Contact/Stiffness",
+                      friction_entry   = "Contact/Friction",
+                      slip_entry       = "Contact/Slip velocity";
 
     // Names of obstacles begin names of columns.
     void
@@ -141,6 +142,13 @@ namespace corotet
       "supports.",
       dealii::Patterns::Anything());
     prm.add_parameter(
+      "Boundaries",
+      boundaries,
+      "Boundaries that touch obstacles, separated by commas. Empty: all of the "
+      "surface. To be given if there are planes of symmetry, which are no "
+      "surface of the whole body.",
+      dealii::Patterns::Anything());
+    prm.add_parameter(
       "Motions",
       motions,
       "Displacements of obstacles [m]: 'name: x; y; z, ...', expressions in t. "
@@ -177,6 +185,7 @@ namespace corotet
     std::vector<GivenEntry> result;
     for (const auto &[entry, value] :
          {std::pair{obstacles_entry, obstacle_list},
+          std::pair{boundaries_entry, boundaries},
           std::pair{motions_entry, motions},
           std::pair{stiffness_entry, stiffnesses},
           std::pair{friction_entry, frictions}})
@@ -203,13 +212,28 @@ namespace corotet
     const auto friction =
       numbers_of_obstacles(frictions, friction_entry, list, true);
     const auto motion = values_of_obstacles(motions, motions_entry, list);
+    std::set<unsigned int> touching;
+    const PlaceNames      &names = context.discretization.mesh().places();
+    for (const auto &[name, value] : names_and_values(boundaries))
+      {
+        if (value)
+          throw InputError(boundaries_entry,
+                           fmt::format("found '{}: {}'; allowed: names of "
+                                       "boundaries, separated by commas",
+                                       shortened(name),
+                                       shortened(*value)));
+        for (const unsigned int id :
+             names.boundary_ids(name, boundaries_entry, "contact"))
+          touching.insert(id);
+      }
     if (list.empty())
       return;
     const auto value_of = [](const auto &values, const std::string &name) {
       const auto found = values.find(name);
       return found == values.end() ? 0. : found->second;
     };
-    const auto surface    = std::make_shared<const ContactSurface>(context);
+    const auto surface =
+      std::make_shared<const ContactSurface>(context, touching);
     const auto [low, top] = surface->range_of_stiffness();
     for (const auto &[name, shape] : list)
       {

@@ -186,6 +186,20 @@ TEST_P(ContactTest, ForceOfAPlane)
   EXPECT_EQ(terms.energy({0., away, away}), 0);
 }
 
+// Sides of the block that are named alone touch: on z-min the depth is 0.05 m,
+// and the force is exact.
+TEST_P(ContactTest, NamedBoundaries)
+{
+  TouchingBlock body(
+    GetParam(),
+    contact("floor: plane 0 0 0.05 0 0 1", "", "", "floor: 1e5") +
+      section("Contact", {{"Boundaries", "z-min, z-max"}}));
+  const Vector u     = moved_by(body, Tensor<1, 3>({0.3, 0, 0}));
+  const auto   state = body.system.equation().terms.contact({0., u, u});
+  EXPECT_NEAR(state.forces[0].second[2], 1e5 * 0.05 * 2, 1e-12 * 1e4);
+  EXPECT_NEAR(state.energy, 0.5 * 1e5 * 0.05 * 0.05 * 2, 1e-12 * 250);
+}
+
 // The pressure is minus the derivative of the energy. The error of central
 // differences is of the size of the step squared, and of round-off over the
 // step.
@@ -340,6 +354,12 @@ TEST(Contact, WrongInput)
          "a number that is not negative");
   expect(contact("a: sphere 9 9 9 1", "", "", "a: 0"), "a number above zero");
   expect(contact("a: sphere 9 9 9 1", "", "a: x; 0; 0"), "expressions in t");
+  expect(contact("a: sphere 9 9 9 1") +
+           section("Contact", {{"Boundaries", "top"}}),
+         "Contact/Boundaries: ");
+  expect(contact("a: sphere 9 9 9 1") +
+           section("Contact", {{"Boundaries", "x-min: 1"}}),
+         "found 'x-min: 1'; allowed: names of boundaries");
   expect(contact("a: sphere 9 9 9 1", "a: 0.1") +
            section("Contact", {{"Slip velocity", 0}}),
          "allowed: a velocity above zero");

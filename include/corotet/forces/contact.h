@@ -10,6 +10,7 @@
 
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,10 @@ namespace corotet
       std::size_t  n_faces;
     };
 
-    /// @p context must outlive this object, but for its log.
-    explicit ContactSurface(const ForceContext &context);
+    /// The boundaries with the ids @p touching; all of the surface if there are
+    /// none. @p context must outlive this object, but for its log.
+    ContactSurface(const ForceContext           &context,
+                   const std::set<unsigned int> &touching);
 
     /// Areas of the points at rest [m^2], [face][point].
     double
@@ -72,8 +75,7 @@ namespace corotet
     std::vector<Boundary>   boundaries;
 
   private:
-    /// Returns the area of the face [m^2].
-    double
+    void
     add(const BoundaryFace &face, const Elasticity &elasticity);
 
     std::vector<double> areas;
@@ -373,6 +375,7 @@ namespace corotet
              const double         top);
 
     std::string obstacle_list;
+    std::string boundaries;
     std::string motions;
     std::string stiffnesses;
     std::string frictions;
