@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -65,8 +66,8 @@ namespace corotet
   double
   ContactSurface::stiffness(const Face &face) const
   {
-    const double relative = std::min(1., thickness / face.size);
-    return 10 * face.youngs_modulus / face.size * relative * relative;
+    const double thin = std::min(1., 3 * thickness / face.size);
+    return 10 * face.youngs_modulus / face.size * thin * thin * thin;
   }
 
   void
@@ -250,12 +251,11 @@ namespace corotet
              ++f)
           for (unsigned int q = 0; q < surface->n_points; ++q, ++D)
             {
-              // Where several obstacles meet, their normals are taken to be
-              // perpendicular.
+              // The normal may have any direction.
               const double k =
                 stiffness_of(surface->faces[f]) * surface->area(f, q);
               for (unsigned int a = 0; a < 3; ++a)
-                (*D)[a][a] = std::max((*D)[a][a], k);
+                (*D)[a][a] += k;
             }
       }
   }
@@ -267,12 +267,14 @@ namespace corotet
   {
     // Positions are rounded, and their weights are.
     constexpr double epsilon = 4 * std::numeric_limits<double>::epsilon();
-    double           sum     = 0;
+    const double     of_obstacle =
+      the_obstacle->size() + the_obstacle->displacement(motion.time).norm();
+    double sum = 0;
     for_each_point(motion, false, [&](const TouchingPoint &point) {
       const ContactSurface::Face &face = surface->faces[point.face];
       const unsigned int          node = surface->discretization.cell_nodes(
         face.cell)[surface->reference.face_nodes[face.face][0]];
-      double square = 0;
+      double square = of_obstacle * of_obstacle;
       for (unsigned int a = 0; a < 3; ++a)
         square += std::pow(surface->discretization.node_position(node)[a], 2) +
                   std::pow(motion.u.local_element(3 * node + a), 2);

@@ -14,7 +14,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <map>
+#include <set>
 
 namespace corotet
 {
@@ -135,7 +137,7 @@ namespace corotet
       "Rigid shapes that the surface of the body touches [m]: 'name: plane x y "
       "z nx ny nz', all behind a plane whose normal points to the body, 'name: "
       "box x y z x y z', 'name: sphere x y z radius', 'name: cylinder x y z x "
-      "y z radius', or with 'not' before the shape all that is outside of it; "
+      "y z radius', or with 'not' before the shape all that is outside of it (a cylinder has ends); "
       "separated by commas. Their pressure is Stiffness times the depth of the "
       "surface inside of them. Its energy counts as elastic energy, the work "
       "of obstacles that move as external work. In statics, obstacles are no "
@@ -159,7 +161,7 @@ namespace corotet
       stiffnesses,
       "Pressure of obstacles over the depth of the surface inside of them, per "
       "area at rest [N/m^3]: 'name: k, ...'. Without a value: 10 times Young's "
-      "modulus over the size of the face, less for thin bodies.",
+      "modulus over the size of the face, less for bodies thinner than that.",
       dealii::Patterns::Anything());
     prm.add_parameter(
       "Friction",
@@ -265,23 +267,12 @@ namespace corotet
                         const double         low,
                         const double         top)
   {
-    Vector at_rest;
-    context.discretization.initialize_vector(at_rest);
-    const double depth = contact.depth({context.start_time, at_rest, at_rest});
-    const double k     = contact.given_stiffness();
+    const double      k = contact.given_stiffness();
     const std::string stiffness =
       k > 0 ? fmt::format("{:.3g} N/m^3", k) :
               fmt::format("{:.3g} to {:.3g} N/m^3", low, top);
     context.log.line(fmt::format("contact: obstacle '{}', stiffness {}",
                                  contact.obstacle(),
                                  stiffness));
-    // The tolerance is that of numbers written with six digits.
-    if (depth > 1e-6 * std::cbrt(context.discretization.volume()))
-      context.log.warning(
-        fmt::format("{}: the body at rest is up to {:.3g} m inside of obstacle "
-                    "'{}' at the start, which presses it out",
-                    obstacles_entry,
-                    depth,
-                    contact.obstacle()));
   }
 } // namespace corotet

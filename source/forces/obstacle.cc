@@ -62,13 +62,13 @@ namespace corotet
     }
 
     Obstacle::Gap
-    gap_of_cylinder(const Point<3> &x,
-                    const Point<3> &from,
-                    const Point<3> &to,
-                    const double    radius)
+    gap_of_cylinder(const Point<3>     &x,
+                    const Point<3>     &from,
+                    const Point<3>     &to,
+                    const Tensor<1, 3> &axis,
+                    const double        radius)
     {
       const double       length = to.distance(from);
-      const Tensor<1, 3> axis   = (to - from) / length;
       const double       along  = (x - from) * axis;
       const Tensor<1, 3> aside  = (x - from) - along * axis;
       Obstacle::Gap      gap{aside.norm() - radius, unit_vector(aside)};
@@ -129,6 +129,10 @@ namespace corotet
       for (unsigned int d = 0; d < 3; ++d)
         if (numbers[d] == numbers[3 + d])
           refuse("a box has no thickness");
+    if (kind == Kind::plane)
+      direction = unit_vector(point(numbers, 3));
+    if (kind == Kind::cylinder)
+      direction = unit_vector(point(numbers, 3) - point(numbers, 0));
   }
 
   void
@@ -188,16 +192,23 @@ namespace corotet
     return v;
   }
 
+  double
+  Obstacle::size() const
+  {
+    const std::size_t n    = kind == Kind::plane ? 3 : numbers.size();
+    double            size = 0;
+    for (std::size_t i = 0; i < n; ++i)
+      size = std::max(size, std::abs(numbers[i]));
+    return size;
+  }
+
   Obstacle::Gap
   Obstacle::gap_of_shape(const Point<3> &x) const
   {
     switch (kind)
       {
         case Kind::plane:
-          {
-            const Tensor<1, 3> normal = unit_vector(point(numbers, 3));
-            return {(x - point(numbers, 0)) * normal, normal};
-          }
+          return {(x - point(numbers, 0)) * direction, direction};
         case Kind::box:
           return gap_of_box(x, point(numbers, 0), point(numbers, 3));
         case Kind::sphere:
@@ -206,10 +217,8 @@ namespace corotet
             return {from_centre.norm() - numbers[3], unit_vector(from_centre)};
           }
         case Kind::cylinder:
-          return gap_of_cylinder(x,
-                                 point(numbers, 0),
-                                 point(numbers, 3),
-                                 numbers[6]);
+          return gap_of_cylinder(
+            x, point(numbers, 0), point(numbers, 3), direction, numbers[6]);
       }
     return {};
   }

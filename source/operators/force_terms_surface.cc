@@ -130,27 +130,43 @@ namespace corotet
     return result;
   }
 
-  ForceTerms::ContactState
-  ForceTerms::contact(const Motion &motion) const
+  std::vector<std::pair<std::string, dealii::Tensor<1, 3>>>
+  ForceTerms::contact_forces(const Motion &motion) const
   {
-    ContactState result;
+    std::vector<std::pair<std::string, dealii::Tensor<1, 3>>> result;
     for (const std::string &name : obstacles())
       {
         Vector &f = zero_vector();
         for (const auto &term : terms)
           if (term->obstacle() == name)
-            {
-              term->add_force(f, motion);
-              if (term->role() == ForceTerm::Role::elastic)
-                result.energy += term->energy(motion);
-            }
+            term->add_force(f, motion);
         f.compress(dealii::VectorOperation::add);
         dealii::Tensor<1, 3> sum;
         for (unsigned int i = 0; i < f.locally_owned_size(); ++i)
           sum[i % 3] += f.local_element(i);
-        result.forces.emplace_back(
+        result.emplace_back(
           name, dealii::Utilities::MPI::sum(sum, f.get_mpi_communicator()));
       }
+    return result;
+  }
+
+  double
+  ForceTerms::contact_energy(const Motion &motion) const
+  {
+    double sum = 0;
+    for (const auto &term : terms)
+      if (!term->obstacle().empty() && term->role() == ForceTerm::Role::elastic)
+        sum += term->energy(motion);
+    return sum;
+  }
+
+  std::vector<std::pair<std::string, double>>
+  ForceTerms::contact_depths(const Motion &motion) const
+  {
+    std::vector<std::pair<std::string, double>> result;
+    for (const auto &term : terms)
+      if (!term->obstacle().empty() && term->role() == ForceTerm::Role::elastic)
+        result.emplace_back(term->obstacle(), term->depth(motion));
     return result;
   }
 

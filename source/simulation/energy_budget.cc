@@ -311,7 +311,7 @@ namespace corotet
 
     if (has_obstacles)
       record.contact_forces =
-        force_terms.contact(equation.last_motion()).forces;
+        force_terms.contact_forces(equation.last_motion());
 
     // Energies and momenta are those at the end of the step.
     equation.set_state(state);
@@ -354,7 +354,7 @@ namespace corotet
                              equation.why_not_finite());
     describe_cells(record, elastic);
     if (has_obstacles)
-      record.contact_energy = force_terms.contact(motion).energy;
+      record.contact_energy = force_terms.contact_energy(motion);
     record.friction_work = friction_work;
 
     find_balance(record, motion);

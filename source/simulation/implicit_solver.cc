@@ -395,6 +395,6 @@ namespace corotet
   {
     tangent = use ? Tangent::frozen_rotation : parameters.tangent;
     return parameters.tangent != Tangent::frozen_rotation &&
-           !body.law->is_linear();
+           (!body.law->is_linear() || equation.terms.has_friction());
   }
 } // namespace corotet

@@ -95,6 +95,23 @@ namespace corotet
                       state.min_det_F));
     }
 
+    // Obstacles that the body is inside of press it out, which may be intended.
+    void
+    warn_of_contact(const EquationOfMotion &equation, Log &log)
+    {
+      // The tolerance is that of numbers written with six digits.
+      const double tolerance =
+        1e-6 * std::cbrt(equation.body.discretization.volume());
+      for (const auto &[obstacle, depth] :
+           equation.terms.contact_depths(equation.last_motion()))
+        if (depth > tolerance)
+          log.warning(fmt::format("Contact/Obstacles: the body is up to {:.3g} "
+                                  "m inside of obstacle '{}' at the start, "
+                                  "which presses it out",
+                                  depth,
+                                  obstacle));
+    }
+
     void
     check_loads(EquationOfMotion &equation,
                 const State      &state,
@@ -127,6 +144,7 @@ namespace corotet
       {
         check_supports_at_start(system, parameters, initial, log);
         check_loads(equation, initial, parameters.start_time);
+        warn_of_contact(equation, log);
       }
     equation.set_state(initial);
     // Displacements of a linear law may be of any size.

@@ -3,6 +3,7 @@
 
 // Bodies that touch rigid obstacles: statics, impact, friction.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -162,6 +163,43 @@ TEST(Contact, StableStep)
       EXPECT_NEAR(last(run).energy_balance / last(run).kinetic_energy, 0, 0.03);
     }
   EXPECT_LT(step[1], 0.2 * step[0]);
+}
+
+// Faces as large as the body do not make contact soft: one cubic cell for each
+// edge of a cube, pressed by 2 %. The depth is some 5 % of the way.
+TEST(Contact, DefaultStiffnessOfACube)
+{
+  for (const unsigned int n : {1, 2, 4})
+    {
+      CompleteRun run(
+        box_mesh("1, 1, 1", fmt::format("{0}, {0}, {0}", n)) + element_text(3) +
+        material_type("linear") + material_text(1e6, 0) + fixed("z-min") +
+        section("Contact",
+                {{"Obstacles", "press: plane 0 0 1 0 0 -1"},
+                 {"Boundaries", "z-max"},
+                 {"Motions", "press: 0; 0; -0.02 * t"}}) +
+        section("Time integration",
+                {{"Type", "static"}, section("static", {{"Load steps", 1}})}));
+      EXPECT_EQ(run.run(), "");
+      // Bar and pressure are springs in a row, of 1 m / E and h / (10 E).
+      const double force = 0.02 * 1e6 / (1 + 0.1 / n);
+      EXPECT_NEAR(last(run).contact_forces[0].second[2] / -force, 1, 1e-7);
+    }
+}
+
+// Two planes at the same place press twice: the stable step knows.
+TEST(Contact, StableStepOfTwoObstacles)
+{
+  CompleteRun run(
+    box_mesh("1, 1, 1", "2, 2, 2") + element_text(1) + material_text(1e6, 0.3) +
+    initial_conditions("0; 0; 0", "0; 0; -1") +
+    section("Contact",
+            {{"Obstacles",
+              "a: plane 0 0 -0.01 0 0 1, b: plane 0 0 -0.01 0 0 1"},
+             {"Stiffness", "a: 1e9, b: 1e9"}}) +
+    time_integration("central difference", 0.1, 0));
+  EXPECT_EQ(run.run(), "");
+  EXPECT_NEAR(last(run).energy_balance / last(run).kinetic_energy, 0, 0.03);
 }
 
 // Obstacles are no supports in statics.

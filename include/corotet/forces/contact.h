@@ -12,6 +12,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace corotet
@@ -56,10 +57,10 @@ namespace corotet
     }
 
     /// The default stiffness of contact per area [N/m^3], 10 E / h with the
-    /// size h of the face. Where the body is thinner than that, it bends and is
-    /// softer by about the third power of the thickness t over h: then the
-    /// stiffness is less by (t / h)^2, as contact that is far stiffer than the
-    /// body closes and opens at single points, and Newton's method follows.
+    /// size h of the face. Where the body has a thickness t below h / 3, it
+    /// bends and is softer by the third power of t / h: then the stiffness is
+    /// less by (3 t / h)^3, as contact that is far stiffer than the body closes
+    /// and opens at single points, and Newton's method follows.
     double
     stiffness(const Face &face) const;
 
@@ -79,8 +80,8 @@ namespace corotet
     add(const BoundaryFace &face, const Elasticity &elasticity);
 
     std::vector<double> areas;
-    /// Twice the volume of the body over the area of its surface: the thickness
-    /// of a plate [m].
+    /// Twice the volume of the body over the area of its surface [m]: the
+    /// thickness of a plate, and a third of that of a cube.
     double thickness;
   };
 
@@ -228,10 +229,8 @@ namespace corotet
               const double         size,
               const ForceRoundOff &noise) const override;
 
-    /// The greatest depth of a point [m]; less than zero where nothing touches.
-    /// Collective.
     double
-    depth(const Motion &motion) const;
+    depth(const Motion &motion) const override;
   };
 
   /**
@@ -292,6 +291,12 @@ namespace corotet
 
     bool
     is_symmetric() const override
+    {
+      return false;
+    }
+
+    bool
+    has_potential() const override
     {
       return false;
     }

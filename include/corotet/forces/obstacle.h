@@ -74,6 +74,10 @@ namespace corotet
     dealii::Tensor<1, 3>
     velocity(const double time) const;
 
+    /// The largest coordinate or radius of the shape [m].
+    double
+    size() const;
+
     /// The gap of a point, the obstacle being where it is without motion.
     Gap
     gap(const dealii::Point<3> &x) const;
@@ -90,10 +94,12 @@ namespace corotet
     Gap
     gap_of_shape(const dealii::Point<3> &x) const;
 
-    std::string               the_name;
-    Kind                      kind;
-    bool                      is_hollow = false;
-    std::vector<double>       numbers;
+    std::string         the_name;
+    Kind                kind;
+    bool                is_hollow = false;
+    std::vector<double> numbers;
+    /// The normal of a plane, or the direction of a cylinder's axis.
+    dealii::Tensor<1, 3>      direction;
     std::optional<Expression> motion;
     std::string               motion_entry;
   };

@@ -159,8 +159,8 @@ namespace corotet
                        const double /*c_v*/) const
     {}
 
-    /// For matrices that depend on the motion: changes @p S such that it is no
-    /// less stiff than - df/du at any motion.
+    /// For matrices that depend on the motion: adds one that is no less stiff
+    /// than - df/du at any motion.
     virtual void
     add_largest_surface_matrix(SurfaceMatrix & /*S*/,
                                const double /*time*/) const
@@ -172,6 +172,14 @@ namespace corotet
     obstacle() const
     {
       return "";
+    }
+
+    /// The greatest depth of the body inside of the obstacle [m]; less than
+    /// zero where it is outside. Collective.
+    virtual double
+    depth(const Motion & /*motion*/) const
+    {
+      return -1;
     }
 
     /// Whether add_linearized() has more to add than damping_shares() and

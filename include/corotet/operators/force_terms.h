@@ -149,17 +149,18 @@ namespace corotet
     std::vector<std::string>
     obstacles() const;
 
-    /// What obstacles do.
-    struct ContactState
-    {
-      /// The name of each obstacle, and its force on the body [N].
-      std::vector<std::pair<std::string, dealii::Tensor<1, 3>>> forces;
-      /// The energy of their pressure [J].
-      double energy = 0;
-    };
+    /// The name of each obstacle, and its force on the body [N].
+    std::vector<std::pair<std::string, dealii::Tensor<1, 3>>>
+    contact_forces(const Motion &motion) const;
 
-    ContactState
-    contact(const Motion &motion) const;
+    /// The energy of the pressure of obstacles [J].
+    double
+    contact_energy(const Motion &motion) const;
+
+    /// The name of each obstacle, and the greatest depth of the body inside of
+    /// it [m]; less than zero where it is outside.
+    std::vector<std::pair<std::string, double>>
+    contact_depths(const Motion &motion) const;
 
     /// Whether obstacles have damping.
     bool
