@@ -17,7 +17,7 @@ CASE = {"Mesh/Type": "box", "Mesh/box/Size": "0.4, 0.2, 0.2", "Mesh/box/Cells": 
         "Contact/Motions": "belt: 0.5 * t; 0; 0.01 * sin(50 * t)", "Contact/Friction": "belt: 0.4, wall: 0.2", "Contact/Slip velocity": "0.01",
         "Time integration/End time": "0.125", "Time integration/Time step": "0.00390625", "Checkpoint/Steps between checkpoints": "1",
         "Checkpoint/Keep": "40", "Output/Probes": "tip: 0.4 0.1 0.1", "Output/Time between results": "0"}
-EXPLICIT = {"Time integration/Type": "central difference", "Time integration/Time step": "0.00030517578125", "Output/Steps between rows": "20",
+EXPLICIT = {"Time integration/Type": "central difference", "Time integration/Time step": "0.000244140625", "Output/Steps between rows": "20",
             "Checkpoint/Steps between checkpoints": "60"}
 FROZEN = {"Newton/Tangent": "frozen rotation", "Material/Type": "linear"}
 
