@@ -267,11 +267,12 @@ namespace corotet
                         const double         low,
                         const double         top)
   {
-    const double      k = contact.given_stiffness();
-    const std::string stiffness =
-      k > 0 ? fmt::format("{:.3g} N/m^3", k) :
-              fmt::format("{:.3g} to {:.3g} N/m^3", low, top);
-    context.log.line(fmt::format("contact: obstacle '{}', stiffness {}",
+    const double k = contact.given_stiffness();
+    // The shown digits of the smallest and the largest one, or one for both.
+    const std::string least     = fmt::format("{:.3g}", k > 0 ? k : low),
+                      most      = fmt::format("{:.3g}", k > 0 ? k : top);
+    const std::string stiffness = least == most ? least : least + " to " + most;
+    context.log.line(fmt::format("contact: obstacle '{}', stiffness {} N/m^3",
                                  contact.obstacle(),
                                  stiffness));
   }

@@ -212,7 +212,7 @@ def study_rows():
                 "6 refinements and 3 more of the finer run")
     yield wrong("study: steps increase", (*STUDY, "Convergence study/Time steps = 0.01, 0.02"), "do not decrease")
     yield wrong("study: no step among several", (*STUDY, "Convergence study/Time steps = 0.01, 0"), "found 0 among several")
-    yield wrong("study: a value that is no number", (*STUDY, "Convergence study/Quantities = tip_z: nan"), "found 'tip_z: nan'")
+    yield wrong("study: a value that is no number", (*STUDY[:4], "Convergence study/Quantities = tip_z: nan"), "found 'tip_z: nan'")
     yield wrong("study: no exact solution", (*STUDY[:3], STUDY[4], "Convergence study/Reference = exact solution"), "Exact solution/Displacement is empty")
     yield wrong("study: modes and an exact solution", (*STUDY[:3], STUDY[4], "Convergence study/Run = modes", "Convergence study/Reference = exact solution"),
                 "'exact solution' for modes")
