@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 #include <string_view>
 
@@ -106,6 +107,23 @@ namespace corotet
         pairs.emplace_back(name, *value);
       }
     return pairs;
+  }
+
+  void
+  check_column_name(const std::string &entry,
+                    const std::string &name,
+                    const std::string &what)
+  {
+    const auto allowed = [](const unsigned char c) {
+      return std::isalnum(c) != 0 || c == '_';
+    };
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
+        !std::all_of(name.begin(), name.end(), allowed))
+      throw InputError(entry,
+                       fmt::format("'{}' cannot be {}'s name; letters, "
+                                   "digits and _ are allowed, no digit first",
+                                   shortened(name),
+                                   what));
   }
 
   void

@@ -240,8 +240,7 @@ namespace corotet
   }
 
   void
-  NormalContact::add_largest_surface_matrix(SurfaceMatrix &S,
-                                            const double) const
+  NormalContact::add_largest_surface_matrix(SurfaceMatrix &S) const
   {
     for (const ContactSurface::Boundary &boundary : surface->boundaries)
       {

@@ -13,7 +13,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
@@ -29,22 +28,6 @@ namespace corotet
                       friction_entry   = "Contact/Friction",
                       slip_entry       = "Contact/Slip velocity";
 
-    // Names of obstacles begin names of columns.
-    void
-    check_name(const std::string &name)
-    {
-      const auto allowed = [](const unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_';
-      };
-      if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
-          !std::all_of(name.begin(), name.end(), allowed))
-        throw InputError(obstacles_entry,
-                         fmt::format("'{}' cannot be an obstacle's name; "
-                                     "letters, digits and _ are allowed, no "
-                                     "digit first",
-                                     shortened(name)));
-    }
-
     using Pairs = std::vector<std::pair<std::string, std::string>>;
 
     Pairs
@@ -56,7 +39,7 @@ namespace corotet
                      "a list of NAME: SHAPE, separated by commas");
       for (auto item = result.begin(); item != result.end(); ++item)
         {
-          check_name(item->first);
+          check_column_name(obstacles_entry, item->first, "an obstacle");
           if (std::any_of(result.begin(), item, [&](const auto &other) {
                 return other.first == item->first;
               }))

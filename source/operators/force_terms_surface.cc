@@ -108,7 +108,7 @@ namespace corotet
         {
           if (!S)
             S = std::make_unique<SurfaceMatrix>(discretization, reference);
-          term->add_largest_surface_matrix(*S, time);
+          term->add_largest_surface_matrix(*S);
         }
     auto of_supports = springs(reference, time);
     if (!S)

@@ -55,6 +55,19 @@ namespace corotet
                      reactions[s].moment);
         }
     }
+
+    // None if there are no obstacles.
+    void
+    add_contact_columns(nlohmann::ordered_json &row, const StepRecord &record)
+    {
+      if (record.contact_forces.empty())
+        return;
+      Row &columns = row.get_ref<Row &>();
+      add(columns, "contact_energy", record.contact_energy);
+      add(columns, "friction_work", record.friction_work);
+      for (const auto &[obstacle, force] : record.contact_forces)
+        add_vector(columns, obstacle + "_contact", force);
+    }
   } // namespace
 
   nlohmann::ordered_json
@@ -111,18 +124,6 @@ namespace corotet
               components[k]);
         add(columns, names[p] + "_von_mises", von_mises(stresses[p]));
       }
-  }
-
-  void
-  add_contact_columns(nlohmann::ordered_json &row, const StepRecord &record)
-  {
-    if (record.contact_forces.empty())
-      return;
-    Row &columns = row.get_ref<Row &>();
-    add(columns, "contact_energy", record.contact_energy);
-    add(columns, "friction_work", record.friction_work);
-    for (const auto &[obstacle, force] : record.contact_forces)
-      add_vector(columns, obstacle + "_contact", force);
   }
 
   nlohmann::ordered_json

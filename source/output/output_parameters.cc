@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <set>
 
@@ -19,23 +18,6 @@ namespace corotet
 {
   namespace
   {
-    void
-    check_name(const std::string &entry,
-               const std::string &name,
-               const std::string &what)
-    {
-      const auto allowed = [](const unsigned char c) {
-        return std::isalnum(c) != 0 || c == '_';
-      };
-      if (name.empty() || std::isdigit(static_cast<unsigned char>(name[0])) ||
-          !std::all_of(name.begin(), name.end(), allowed))
-        throw InputError(entry,
-                         fmt::format("'{}' cannot be a {}'s name; letters, "
-                                     "digits and _ are allowed, no digit first",
-                                     shortened(name),
-                                     what));
-    }
-
     // Throws if a column of a probe, NAME_x, would exist twice in the history
     // or in the table of modes.
     void
@@ -90,7 +72,7 @@ namespace corotet
       for (const auto &[name, place] : named_values(
              probes, entry, "a list of NAME: X Y Z, separated by commas"))
         {
-          check_name(entry, name, "probe");
+          check_column_name(entry, name, "a probe");
           check_first(entry, name, "probes", names);
           const auto position = point_of(place);
           if (!position)
@@ -216,7 +198,7 @@ namespace corotet
            "a list of NAME: PLACE, separated by commas, each place as in "
            "Boundary conditions/Fixed"))
       {
-        check_name(entry, name, "support");
+        check_column_name(entry, name, "a support");
         check_first(entry, name, "supports", names);
         result.push_back({name, places});
       }

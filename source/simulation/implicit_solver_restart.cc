@@ -57,7 +57,7 @@ namespace corotet
     State state;
     for (Vector *vector : {&state.u, &state.v})
       body.discretization.initialize_vector(*vector);
-    // The displacement is empty with linear laws, where it does not matter.
+    // The displacement is empty where it does not matter.
     if (built_displacement.size() > 0)
       state.u = built_displacement;
     if (built_velocity.size() > 0)

@@ -52,6 +52,11 @@ namespace corotet
       for (const char *entry :
            {"Target error", "Smallest step", "Largest step"})
         note(adaptive + entry, adaptive + "Enabled");
+    const auto &contact = values.at("Contact");
+    if (contact.at("Obstacles").get<std::string>().empty())
+      note("Contact/Boundaries", "Contact/Obstacles");
+    if (contact.at("Friction").get<std::string>().empty())
+      note("Contact/Slip velocity", "Contact/Friction");
     if (values.at("Output").at("Stress probes").get<std::string>().empty())
       note("Output/Stress at probes", "Output/Stress probes");
     if (type == RunType::convergence_study &&

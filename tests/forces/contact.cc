@@ -69,25 +69,29 @@ namespace
     return result;
   }
 
-  // Forces of the obstacles that do not move.
+  // The sum that a member of ForceTerms computes as a resistance, as a force.
+  template <typename Sum>
   Vector
-  pressure(const MovingBody &body, const Motion &motion)
+  force_of(const MovingBody &body, const Motion &motion, const Sum &sum)
   {
     Vector f;
     body.discretization.initialize_vector(f);
-    body.system.equation().terms.elastic_force(f, motion);
+    (body.system.equation().terms.*sum)(f, motion);
     f *= -1;
     return f;
+  }
+
+  // Of the obstacles that do not move.
+  Vector
+  pressure(const MovingBody &body, const Motion &motion)
+  {
+    return force_of(body, motion, &ForceTerms::elastic_force);
   }
 
   Vector
   friction(const MovingBody &body, const Motion &motion)
   {
-    Vector f;
-    body.discretization.initialize_vector(f);
-    body.system.equation().terms.damping_force(f, motion);
-    f *= -1;
-    return f;
+    return force_of(body, motion, &ForceTerms::damping_force);
   }
 
   // (S w) with S = - (c_u df/du + c_v df/dv).
@@ -106,6 +110,20 @@ namespace
     body.discretization.initialize_vector(f);
     S.add(f, w);
     return f;
+  }
+
+  // Minus the derivative of the pressure along w, by central differences.
+  Vector
+  minus_derivative_of_pressure(const MovingBody &body,
+                               const Vector     &u,
+                               const Vector     &w)
+  {
+    constexpr double h    = 1e-6;
+    const Vector     more = sum(u, h, w), less = sum(u, -h, w);
+    Vector           difference = pressure(body, {0., more, more});
+    difference -= pressure(body, {0., less, less});
+    difference *= -0.5 / h;
+    return difference;
   }
 
   // Planes and curved surfaces that the block is partly inside of when it has
@@ -251,11 +269,7 @@ TEST(ContactWithoutNames, MatrixIsTheDerivative)
   mesh.boundaries = {};
   MovingBody   body(mesh, element_text(2) + contact(flat_obstacles));
   const Vector u = waves(body, 0), w = waves(body, 1);
-  const double h    = 1e-6;
-  const Vector more = sum(u, h, w), less = sum(u, -h, w);
-  Vector       difference = pressure(body, {0., more, more});
-  difference -= pressure(body, {0., less, less});
-  difference *= -0.5 / h;
+  const Vector difference = minus_derivative_of_pressure(body, u, w);
   EXPECT_LT(largest_difference(product(body, {0., u, u}, 1, 0, w), difference),
             1e-6 * difference.linfty_norm());
 }

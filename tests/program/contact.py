@@ -69,6 +69,12 @@ class Contact(ProgramTest):
         """Names of obstacles make columns, which no probe may have; statics has no friction, and its log says so."""
         run = self.run_entries({**CASE, "Output/Probes": "belt_contact: 0.4 0.1 0.1"}, status=1)
         self.assertRegex(run.stderr, "'belt_contact' cannot be a probe's name; columns of obstacles end with _contact")
+        alone = {**CASE, "Contact/Obstacles": "", "Contact/Motions": "", "Contact/Friction": "", "Contact/Boundaries": "x-min",
+                 "Time integration/End time": "0.00390625"}
+        self.run_entries(alone, "--output", "alone")
+        log = (self.folder / "alone" / "log.txt").read_text(encoding="utf-8")
+        for entry, choice in (("Boundaries", "Obstacles"), ("Slip velocity", "Friction")):
+            self.assertIn(f"no effect, as \"Contact/{choice}\" is '': Contact/{entry}\n", log)
         pressed = {**CASE, "Time integration/Type": "static", "Boundary conditions/Fixed": "x-min", "Contact/Motions": "wall: -0.02 * t / 0.125; 0; 0"}
         self.run_entries(pressed, "--output", "pressed")
         last = read_history(self.folder / "pressed")[-1]

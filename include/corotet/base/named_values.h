@@ -46,6 +46,13 @@ namespace corotet
     const std::string &entry,
     const std::string &allowed = "'boundary: value, boundary: value'");
 
+  /// Throws InputError, blamed on @p entry, if @p name cannot begin the name of
+  /// a column of results; @p what has it: "a probe".
+  void
+  check_column_name(const std::string &entry,
+                    const std::string &name,
+                    const std::string &what);
+
   /// Throws the InputError, blamed on @p entry, about a list that has the
   /// boundary @p name twice.
   [[noreturn]] void

@@ -220,8 +220,7 @@ namespace corotet
                        const double   c_v) const override;
 
     void
-    add_largest_surface_matrix(SurfaceMatrix &S,
-                               const double   time) const override;
+    add_largest_surface_matrix(SurfaceMatrix &S) const override;
 
     /// That of positions.
     double
@@ -301,7 +300,6 @@ namespace corotet
       return false;
     }
 
-
   private:
     /// How a point slides.
     struct Sliding
@@ -327,6 +325,7 @@ namespace corotet
     dealii::Tensor<1, 3>
     direction_at(const TouchingPoint &point, const Sliding &now);
 
+    /// A point at the last linearize().
     struct LinearizedPoint
     {
       TouchingPoint point;
@@ -355,6 +354,9 @@ namespace corotet
     unsigned int n_solves        = 0;
   };
 
+  /**
+   * The kind contact, section Contact: pressure and friction of each obstacle.
+   */
   class ContactKind : public ForceKind
   {
   public:

@@ -10,7 +10,8 @@ namespace corotet
 {
   /**
    * Cuts every cell of all ranks into eight, @p n_refinements times, as deal.II
-   * does: the octahedron in the middle is cut along its shortest diagonal. The
+   * does: the octahedron in the middle is cut along its shortest diagonal, or
+   * the first one of those that are equally short but for round-off. The
    * children of cell c have the numbers 8 c to 8 c + 7. Children of curved
    * cells are curved like their parents, and new vertices lie on the curves;
    * parts of faces and edges inherit their names. Collective.

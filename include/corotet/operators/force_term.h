@@ -146,12 +146,12 @@ namespace corotet
     }
 
     /// Adds - (@p c_u df/du + @p c_v df/dv) to @p S, if it is a symmetric,
-    /// positive semi-definite matrix of the surface. If it depends on the
-    /// motion, it may be stiffer, with the difference in add_linearized(), but
-    /// must have f = - C v for its part of v. It is included in steps of
+    /// positive semi-definite matrix of the surface. It is included in steps of
     /// all kinds, preconditioners, stable steps, modes, and the check of
-    /// supports in statics. Only for elastic terms and dampers. Throws
-    /// ComputationError. Collective.
+    /// supports in statics. A matrix that depends on the motion may be stiffer,
+    /// with the difference in add_linearized(): for dampers it is C in f = - C
+    /// (v - v_0), which explicit steps take with the velocity at their end.
+    /// Only for elastic terms and dampers. Throws ComputationError. Collective.
     virtual void
     add_surface_matrix(SurfaceMatrix & /*S*/,
                        const Motion & /*motion*/,
@@ -162,8 +162,7 @@ namespace corotet
     /// For matrices that depend on the motion: adds one that is no less stiff
     /// than - df/du at any motion.
     virtual void
-    add_largest_surface_matrix(SurfaceMatrix & /*S*/,
-                               const double /*time*/) const
+    add_largest_surface_matrix(SurfaceMatrix & /*S*/) const
     {}
 
     /// The name of the rigid obstacle that exerts this force, for which the

@@ -36,10 +36,6 @@ namespace corotet
     const std::vector<std::string>                   &names,
     const std::vector<dealii::SymmetricTensor<2, 3>> &stresses);
 
-  /// Adds the columns of contact; none if there are no obstacles.
-  void
-  add_contact_columns(nlohmann::ordered_json &row, const StepRecord &record);
-
   /**
    * The objects with additional columns for a row of the history.
    */

@@ -210,7 +210,7 @@ namespace corotet
     double operator_c_M = -1;
 
     /// The stage and the displacement that the preconditioner was made with;
-    /// the displacement is empty if the law is linear.
+    /// the displacement is empty if no matrix depends on it.
     Stage  built_stage = {};
     Vector built_displacement;
     /// The velocity; empty if no matrix depends on it.
