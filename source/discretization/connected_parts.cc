@@ -32,7 +32,7 @@ namespace corotet
     : part_of_node(discretization.n_owned_nodes(), invalid_unsigned_int)
   {
     const std::vector<unsigned int> parts = number_parts(discretization);
-    for (unsigned int c = 0; c < discretization.n_owned_cells(); ++c)
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       part_of_cell.push_back(parts[discretization.cell_in_local_mesh(c)]);
     find_joints(discretization, parts);
     measure(discretization);
@@ -161,6 +161,35 @@ namespace corotet
           }
     for (const auto &[node, part] : others)
       joints.push_back({node, part_of_node[node], part});
+  }
+
+  std::vector<unsigned int>
+  ConnectedParts::colours(const MPI_Comm comm) const
+  {
+    // Joints of a node follow each other, and name the node's first part.
+    Pairs neighbors;
+    for (auto joint = joints.begin(); joint != joints.end(); ++joint)
+      {
+        neighbors.insert(std::minmax(joint->part, joint->other));
+        for (auto next = joint + 1;
+             next != joints.end() && next->node == joint->node;
+             ++next)
+          neighbors.insert(std::minmax(joint->other, next->other));
+      }
+    std::vector<std::set<unsigned int>> of_lower(n_parts);
+    std::vector<unsigned int>           result(n_parts);
+    // The pairs come in the order of their lower part, whose colour is known
+    // when its pairs are reached.
+    const Pairs all  = of_all_ranks(neighbors, comm);
+    auto        pair = all.begin();
+    for (unsigned int part = 0; part < n_parts; ++part)
+      {
+        while (of_lower[part].contains(result[part]))
+          ++result[part];
+        for (; pair != all.end() && pair->first == part; ++pair)
+          of_lower[pair->second].insert(result[part]);
+      }
+    return result;
   }
 
   void

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/discretization/connected_parts.h>
 #include <corotet/operators/material_nodes.h>
 
 #include <deal.II/base/exceptions.h>
@@ -20,28 +21,26 @@ namespace corotet
 
   namespace
   {
-    // All nodes of local cells with their materials, sorted.
+    // All nodes of local cells with their groups, sorted.
     std::vector<MaterialNodes::Copy>
-    copies_in(
-      const Discretization                                  &discretization,
-      const unsigned int                                     n_materials,
-      const std::function<unsigned int(const unsigned int)> &material_of_cell)
+    copies_in(const Discretization            &discretization,
+              const std::vector<unsigned int> &group_of_cell)
     {
-      // Nearly all nodes have one material only, which is stored here.
-      std::vector<unsigned int>        first(discretization.n_local_nodes(),
-                                      n_materials);
+      // Nearly all nodes have one group only, which is stored here.
+      constexpr unsigned int    none = dealii::numbers::invalid_unsigned_int;
+      std::vector<unsigned int> first(discretization.n_local_nodes(), none);
       std::vector<MaterialNodes::Copy> result;
       for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
         {
-          const unsigned int material = material_of_cell(c);
+          const unsigned int group = group_of_cell[c];
           for (const unsigned int node : discretization.cell_nodes(c))
-            if (first[node] == n_materials)
-              first[node] = material;
-            else if (first[node] != material)
-              result.push_back({node, material});
+            if (first[node] == none)
+              first[node] = group;
+            else if (first[node] != group)
+              result.push_back({node, group});
         }
       for (unsigned int node = 0; node < first.size(); ++node)
-        if (first[node] < n_materials)
+        if (first[node] != none)
           result.push_back({node, first[node]});
       std::sort(result.begin(), result.end());
       result.erase(std::unique(result.begin(), result.end()), result.end());
@@ -72,38 +71,43 @@ namespace corotet
     const std::function<unsigned int(const unsigned int)> &material_of_cell)
     : discretization(discretization)
   {
-    // All cells of an owned node are local, so all its materials are known.
-    const std::vector<Copy> found =
-      copies_in(discretization, n_materials, material_of_cell);
-    unsigned int n_owned = 0;
+    const MPI_Comm                  comm = discretization.communicator();
+    const ConnectedParts            parts(discretization);
+    const std::vector<unsigned int> colours = parts.colours(comm);
+    n_colours = 1 + *std::max_element(colours.begin(), colours.end());
+    for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
+      group_of_cell.push_back(n_colours * material_of_cell(c) +
+                              colours[parts.part_of_cell[c]]);
+    // All cells of an owned node are local, so all its groups are known.
+    const std::vector<Copy> found   = copies_in(discretization, group_of_cell);
+    unsigned int            n_owned = 0;
     while (n_owned < found.size() &&
            found[n_owned].node < discretization.n_owned_nodes())
       ++n_owned;
 
-    const MPI_Comm comm = discretization.communicator();
     const auto [n_before, n_all] =
       dealii::Utilities::MPI::partial_and_total_sum<std::uint64_t>(n_owned,
                                                                    comm);
     check_number(n_all);
     const auto first    = static_cast<global_dof_index>(n_before);
     const auto n_global = static_cast<global_dof_index>(n_all);
-    // Global numbers of ghosts, material by material, travel in a vector of
+    // Global numbers of ghosts, group by group, travel in a vector of
     // the discretization; doubles hold them exactly.
     std::vector<global_dof_index> global(found.size());
     Vector                        numbers;
     discretization.initialize_vector(numbers);
-    for (unsigned int m = 0; m < n_materials; ++m)
+    for (unsigned int g = 0; g < n_materials * n_colours; ++g)
       {
         numbers = 0;
         for (unsigned int i = 0; i < n_owned; ++i)
-          if (found[i].material == m)
+          if (found[i].group == g)
             {
               global[i]                                = first + i;
               numbers.local_element(3 * found[i].node) = first + i;
             }
         numbers.update_ghost_values();
         for (unsigned int i = n_owned; i < found.size(); ++i)
-          if (found[i].material == m)
+          if (found[i].group == g)
             global[i] = static_cast<global_dof_index>(
               numbers.local_element(3 * found[i].node));
         numbers.zero_out_ghost_values();
@@ -133,7 +137,7 @@ namespace corotet
     for (unsigned int c = 0; c < discretization.n_local_cells(); ++c)
       for (const unsigned int node : discretization.cell_nodes(c))
         {
-          const Copy wanted{node, material_of_cell(c)};
+          const Copy wanted{node, group_of_cell[c]};
           nodes_of_cells.push_back(
             number[std::lower_bound(found.begin(), found.end(), wanted) -
                    found.begin()]);

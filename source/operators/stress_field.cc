@@ -169,25 +169,26 @@ namespace corotet
   {
     recover();
     NodalValues               result;
-    std::vector<unsigned int> n_materials(discretization.n_owned_nodes());
-    result.stress.resize(n_materials.size());
-    result.strain.resize(n_materials.size());
+    std::vector<unsigned int> n_copies(discretization.n_owned_nodes());
+    result.stress.resize(n_copies.size());
+    result.strain.resize(n_copies.size());
     for (unsigned int n = 0; n < nodes->n_owned(); ++n)
       {
-        const auto [node, material] = nodes->copy(n);
+        const auto [node, group] = nodes->copy(n);
         SymmetricTensor<2, 3> sigma;
         for (unsigned int k = 0; k < 6; ++k)
           sigma.access_raw_entry(k) = recovered_stress.local_element(6 * n + k);
-        ++n_materials[node];
+        ++n_copies[node];
         result.stress[node] += sigma;
         result.strain[node] +=
-          strain_of_stress(point_stress.material(material), sigma);
+          strain_of_stress(point_stress.material(nodes->material(group)),
+                           sigma);
       }
-    for (unsigned int node = 0; node < n_materials.size(); ++node)
-      if (n_materials[node] > 1)
+    for (unsigned int node = 0; node < n_copies.size(); ++node)
+      if (n_copies[node] > 1)
         {
-          result.stress[node] /= n_materials[node];
-          result.strain[node] /= n_materials[node];
+          result.stress[node] /= n_copies[node];
+          result.strain[node] /= n_copies[node];
         }
     return result;
   }

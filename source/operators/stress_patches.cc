@@ -139,13 +139,9 @@ namespace corotet
     std::vector<Patch> result;
     for (unsigned int n = 0; n < nodes.n_owned(); ++n)
       {
-        const auto [vertex, material] = nodes.copy(n);
-        Patch patch{vertex,
-                    material,
-                    false,
-                    samples.cells_around(vertex, material),
-                    {},
-                    {}};
+        const auto [vertex, group] = nodes.copy(n);
+        Patch patch{
+          vertex, group, false, samples.cells_around(vertex, group), {}, {}};
         // There are no cells if the node is not a vertex.
         if (!wants_any(patch.cells))
           continue;
@@ -189,8 +185,7 @@ namespace corotet
       for (unsigned int k = 0; k < 4; ++k)
         {
           const auto more =
-            samples.cells_around(discretization.cell_nodes(c)[k],
-                                 patch.material);
+            samples.cells_around(discretization.cell_nodes(c)[k], patch.group);
           layers.insert(layers.end(), more.begin(), more.end());
         }
     std::sort(layers.begin(), layers.end());

@@ -55,13 +55,11 @@ namespace corotet
         for (unsigned int q = 0; q < n_points; ++q)
           positions.push_back(
             point_position(discretization, reference.stiffness_rule, c, q));
-        const unsigned int material =
-          nodes.copy(nodes.cell_nodes(c)[0]).material;
         for (unsigned int k = 0; k < 4; ++k)
           {
             const unsigned int vertex = discretization.cell_nodes(c)[k];
             corners_of_cells[c][k]    = discretization.node_position(vertex);
-            incidences.push_back({vertex, material, c});
+            incidences.push_back({vertex, nodes.group(c), c});
           }
       }
     std::sort(incidences.begin(), incidences.end());
@@ -69,14 +67,13 @@ namespace corotet
 
   std::vector<unsigned int>
   StressSamples::cells_around(const unsigned int vertex,
-                              const unsigned int material) const
+                              const unsigned int group) const
   {
     std::vector<unsigned int> result;
     for (auto i = std::lower_bound(incidences.begin(),
                                    incidences.end(),
-                                   Incidence{vertex, material, 0});
-         i != incidences.end() && i->vertex == vertex &&
-         i->material == material;
+                                   Incidence{vertex, group, 0});
+         i != incidences.end() && i->vertex == vertex && i->group == group;
          ++i)
       result.push_back(i->cell);
     return result;
@@ -94,7 +91,7 @@ namespace corotet
 
   void
   StressSamples::add_cell(const Key         &vertices,
-                          const unsigned int material,
+                          const unsigned int group,
                           const double      *x)
   {
     const unsigned int cell = corners_of_cells.size();
@@ -108,7 +105,7 @@ namespace corotet
       if (partitioner.in_local_range(3 * vertex) ||
           partitioner.is_ghost_entry(3 * vertex))
         incidences.push_back(
-          {partitioner.global_to_local(3 * vertex) / 3, material, cell});
+          {partitioner.global_to_local(3 * vertex) / 3, group, cell});
   }
 
   void
@@ -119,7 +116,7 @@ namespace corotet
     const auto     requests =
       mpi::some_to_some(comm, by_owner(discretization, ghost_vertices));
 
-    // A cell is described by its four vertices, its material, and positions.
+    // A cell is described by its four vertices, its group, and positions.
     using Description =
       std::pair<std::vector<global_dof_index>, std::vector<double>>;
     std::map<unsigned int, Description> answers;
@@ -146,7 +143,7 @@ namespace corotet
             numbers.insert(numbers.end(),
                            vertices_of_cell.begin(),
                            vertices_of_cell.end());
-            numbers.push_back(nodes.copy(nodes.cell_nodes(c)[0]).material);
+            numbers.push_back(nodes.group(c));
             for (const Point<3> &corner : corners(c))
               x.insert(x.end(), {corner[0], corner[1], corner[2]});
             for (const Point<3> &point : points(c))

@@ -73,7 +73,8 @@ namespace corotet
           }
       }
     for (unsigned int a = 0; a < copies->n_owned(); ++a)
-      moduli[a] = materials[copies->copy(a).material].lambda / moduli[a];
+      moduli[a] =
+        materials[copies->material(copies->copy(a).group)].lambda / moduli[a];
     exchange.update(moduli.data());
   }
 

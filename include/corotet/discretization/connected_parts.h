@@ -37,7 +37,7 @@ namespace corotet
     unsigned int n_parts = 0;
     /// One part of each owned node.
     std::vector<unsigned int> part_of_node;
-    /// The part of each owned cell.
+    /// The part of each local cell.
     std::vector<unsigned int> part_of_cell;
     /// The further parts of owned nodes that belong to several.
     std::vector<Joint> joints;
@@ -47,6 +47,11 @@ namespace corotet
     std::vector<double> radii;
     /// The regions of each part's cells.
     std::vector<std::set<unsigned int>> regions;
+
+    /// A small number for each part, the same on all ranks, such that parts
+    /// with a node in common have different ones. Collective.
+    std::vector<unsigned int>
+    colours(const MPI_Comm comm) const;
 
   private:
     /// Numbers the parts; returns the part of each cell of the LocalMesh.

@@ -17,10 +17,12 @@
 namespace corotet
 {
   /**
-   * The nodes of a discretization, with a copy for each material that meets
-   * there: they are for functions that are continuous within each material and
-   * jump from one to the next, as stress does. Numbers are local: owned copies
-   * first, then ghosts. A copy has the owner of its node.
+   * The nodes of a discretization, with a copy for each group of cells that
+   * meets there: the cells of one material that belong to one of the
+   * ConnectedParts. They are for functions that are continuous within each
+   * group and jump from one to the next, as stress does from material to
+   * material, and between parts that only a hinge connects. Numbers are local:
+   * owned copies first, then ghosts. A copy has the owner of its node.
    *
    * @p discretization must outlive this object.
    */
@@ -34,13 +36,13 @@ namespace corotet
       const unsigned int                                     n_materials,
       const std::function<unsigned int(const unsigned int)> &material_of_cell);
 
-    /// Throws InputError if @p n_copies nodes of all ranks, one for each
-    /// material, with six numbers each, exceed the range of deal.II's index
+    /// Throws InputError if @p n_copies nodes of all ranks, one for each group,
+    /// with six numbers each, exceed the range of deal.II's index
     /// type.
     static void
     check_number(const std::uint64_t n_copies);
 
-    /// Local numbers of the nodes of a local cell, for its material.
+    /// Local numbers of the nodes of a local cell, for its group.
     dealii::ArrayView<const unsigned int>
     cell_nodes(const unsigned int cell) const
     {
@@ -66,11 +68,26 @@ namespace corotet
     NodeNumbers
     numbers() const;
 
-    /// The discretization's node and the material of each copy, with ghosts.
+    /// The group of a local cell. Groups with a node in common have different
+    /// numbers, which are the same on all ranks.
+    unsigned int
+    group(const unsigned int cell) const
+    {
+      return group_of_cell[cell];
+    }
+
+    /// The material of a group.
+    unsigned int
+    material(const unsigned int group) const
+    {
+      return group / n_colours;
+    }
+
+    /// The discretization's node and the group of each copy, with ghosts.
     struct Copy
     {
       unsigned int node;
-      unsigned int material;
+      unsigned int group;
 
       auto
       operator<=>(const Copy &) const = default;
@@ -92,6 +109,8 @@ namespace corotet
 
   private:
     const Discretization                                      &discretization;
+    unsigned int                                               n_colours;
+    std::vector<unsigned int>                                  group_of_cell;
     std::vector<unsigned int>                                  nodes_of_cells;
     std::vector<Copy>                                          copies;
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;

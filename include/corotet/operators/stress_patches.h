@@ -48,7 +48,8 @@ namespace corotet
    * Superconvergent patch recovery of stress (Zienkiewicz, Zhu 1992,
    * @cite zienkiewicz1992), with wider patches at the surface.
    *
-   * The patch of a vertex consists of the cells of one material around it. A
+   * The patch of a vertex consists of the cells of one group of MaterialNodes
+   * around it. A
    * polynomial of degree p is fitted to the stress at the points of the
    * stiffness rule there, by least squares. A node gets the values of the
    * polynomials of the vertices of its edge, face or cell, weighted by its
@@ -125,7 +126,7 @@ namespace corotet
     {
       /// The discretization's number.
       unsigned int vertex;
-      unsigned int material;
+      unsigned int group;
       /// Whether the polynomial is used before others.
       bool                      is_preferred;
       std::vector<unsigned int> cells;

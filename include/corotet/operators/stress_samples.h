@@ -36,10 +36,10 @@ namespace corotet
     void
     fetch_cells_around(const std::vector<unsigned int> &ghost_vertices);
 
-    /// Cells of a material around a local vertex, in ascending order. They are
+    /// Cells of a group around a local vertex, in ascending order. They are
     /// complete if the vertex is owned or cells around it were fetched.
     std::vector<unsigned int>
-    cells_around(const unsigned int vertex, const unsigned int material) const;
+    cells_around(const unsigned int vertex, const unsigned int group) const;
 
     /// Number of the first point of a cell; the others follow.
     std::size_t
@@ -73,11 +73,11 @@ namespace corotet
     cells_for_others() const;
 
   private:
-    /// A cell of a material at one of its vertices.
+    /// A cell of a group at one of its vertices.
     struct Incidence
     {
       unsigned int vertex;
-      unsigned int material;
+      unsigned int group;
       unsigned int cell;
 
       auto
@@ -90,9 +90,9 @@ namespace corotet
     Key
     key(const unsigned int local_cell) const;
     /// Adds a cell of another rank, given by global numbers of its vertices,
-    /// material, and positions of vertices and points.
+    /// its group, and positions of vertices and points.
     void
-    add_cell(const Key &vertices, const unsigned int material, const double *x);
+    add_cell(const Key &vertices, const unsigned int group, const double *x);
 
     const Discretization &discretization;
     const MaterialNodes  &nodes;
