@@ -9,7 +9,7 @@ import numpy as np
 from fields import choose_field, choose_warp, limits_of, mean_of_cells, with_prefix
 from lagrange import Surface, inside
 from commands import WrongInput, is_number
-from scene import Body, Legend, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
+from scene import Body, Legend, Shape, draw_axes, draw_bodies, draw_label, draw_legend, draw_time, font_size
 from views import View, direction_of
 
 FOLD = 35  # [degrees]: edges where the surface is folded by more are drawn in the outline
@@ -37,6 +37,7 @@ class Pictures:
         self.rest = self.surface.at(run.points)
         self.size_of_body = float(np.linalg.norm(np.ptp(run.points, axis=0)))
         self.warp = choose_warp(run, states, options.warp)
+        self.obstacles = None if "obstacles" in options.without else run.obstacles()
         self.legend, self.factor = self.make_legend()
         self.clip = self.make_clip()
         self.outline = None if "outline" in options.without else self.rest[self.surface.lines(self.rest, FOLD)]
@@ -115,6 +116,10 @@ class Pictures:
         lines = self.surface.lines(points) if self.options.mesh else np.zeros((0, 2), dtype=int)
         body = Body(points, self.surface.simplices, shown, lines)
         return self.clipped(body, nodes, values) if self.clip else body
+
+    def shape(self, state, shift):
+        """The obstacles in a state."""
+        return Shape(self.obstacles.points + self.obstacles.displacement(self.run.times[state]) + shift, self.obstacles.triangles, self.obstacles.is_hollow)
 
     def clipped(self, body, nodes, values):
         """The part of the body that is behind the plane at rest, with the area of the cut. So all states show the same material."""
@@ -207,8 +212,10 @@ class Pictures:
     def draw(self, frame):
         """The picture of a frame."""
         without, texts = self.options.without, self.times()
-        bodies = [self.body(state, frame.factor, shift) for state, shift in zip(frame.states, self.shifts(len(frame.states)))]
-        image = draw_bodies(self.view, bodies, self.outline, self.legend)
+        shown = list(zip(frame.states, self.shifts(len(frame.states))))
+        bodies = [self.body(state, frame.factor, shift) for state, shift in shown]
+        shapes = [self.shape(state, shift) for state, shift in shown] if self.obstacles else []
+        image = draw_bodies(self.view, bodies, shapes, self.outline, self.legend)
         if "legend" not in without:
             draw_legend(image, self.legend)
         if "axes" not in without:

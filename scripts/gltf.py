@@ -18,6 +18,7 @@ VERTICES, INDICES = 34962, 34963
 FOLD = 35  # [degrees]: edges where the surface is folded by more look sharp
 FRAMES_OF_A_SWING = 24
 PLAIN = (0.2, 0.35, 0.5, 1)  # red, green, blue, opacity
+OBSTACLE, HOLLOW = (0.6, 0.6, 0.62, 1), (0.6, 0.6, 0.62, 0.25)
 
 
 class Buffer:
@@ -119,16 +120,43 @@ def write_file(source, states, path, seconds):
     if targets:
         mesh["weights"] = [0] * len(targets) if swings else [1] + [0] * (len(targets) - 1)
     animations = swing(buffer, source.run, states, seconds or 1) if swings else follow(buffer, source.run.times[states], seconds) if targets else []
+    rigid = rigid_nodes(buffer, source.run, states, animations)
     document = {
         "asset": {"version": "2.0", "generator": MARK},
         "scene": 0, "scenes": [{"nodes": [0]}],
         # The axis z points upwards in the run, and the axis y in glTF.
-        "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}],
-        "meshes": [mesh],
-        "materials": [{"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7} | ({} if "COLOR_0" in base else {"baseColorFactor": PLAIN})}],
+        "nodes": [{"mesh": 0, "name": source.run.folder.resolve().name, "rotation": [-(0.5 ** 0.5), 0, 0, 0.5 ** 0.5]}
+                  | ({"children": list(range(1, len(rigid) + 1))} if rigid else {}), *(node for node, _ in rigid)],
+        "meshes": [mesh, *(shape for _, shape in rigid)],
+        "materials": [material({} if "COLOR_0" in base else {"baseColorFactor": PLAIN})]
+        + ([material({"baseColorFactor": OBSTACLE}, doubleSided=True), material({"baseColorFactor": HOLLOW}, doubleSided=True, alphaMode="BLEND")]
+           if rigid else []),
         "buffers": [{"byteLength": buffer.size}], "bufferViews": buffer.views, "accessors": buffer.accessors,
     } | ({"animations": animations} if animations else {})
     write_glb(path, document, buffer)
+
+
+def material(colour, **properties):
+    return {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.7} | colour} | properties
+
+
+def rigid_nodes(buffer, run, states, animations):
+    """A node and a mesh for each obstacle of the run, which the animation moves with the body. Their nodes are numbered from 1 on, and so are meshes."""
+    obstacles = None if run.is_modes else run.obstacles()
+    result = []
+    for points, triangles, is_hollow, moves in obstacles.each(run.times[states]) if obstacles else []:
+        # Each triangle has vertices of its own: sides are flat.
+        places = points[triangles.ravel()]
+        normals = np.cross(places[1::3] - places[0::3], places[2::3] - places[0::3])
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        attributes = {"POSITION": buffer.add(places, VERTICES, True), "NORMAL": buffer.add(np.repeat(normals, 3, axis=0), VERTICES)}
+        result.append(({"mesh": len(result) + 1, "name": f"obstacle {len(result)}", "translation": moves[0].tolist()},
+                       {"primitives": [{"attributes": attributes, "material": 2 if is_hollow else 1}]}))
+        if animations and np.ptp(moves, axis=0).any():
+            one = animations[0]
+            one["samplers"].append({"input": one["samplers"][0]["input"], "output": buffer.add(moves), "interpolation": "LINEAR"})
+            one["channels"].append({"sampler": len(one["samplers"]) - 1, "target": {"node": len(result), "path": "translation"}})
+    return result
 
 
 def colours(values, limits):

@@ -46,6 +46,43 @@ def check_parts(path, data, checked=None):
             raise BadPart(source, path, one_line(error)) from error
 
 
+class Obstacles:
+    """The obstacles of a run as triangles. `points` [m] are the vertices without displacement, `triangles` the numbers of the vertices, `owners` the number of
+    each triangle's obstacle, `is_hollow` tells for each triangle whether the body is inside of the obstacle."""
+
+    def __init__(self, path):
+        self.path = path
+        try:
+            self.file = h5py.File(path, "r")
+            top = self.file["VTKHDF"]
+            self.times = top["Steps/Values"][:]
+            self.points = top["Points"][:]
+            self.triangles = top["Connectivity"][:].reshape(-1, 3)
+            self.owners = top["CellData/obstacle"][:]
+            self.is_hollow = top["CellData/hollow"][:] != 0
+            check_parts(path, top["PointData/displacement"])
+        except BadPart as error:
+            raise WrongInput(f"{path} is damaged: {error.path.name}: {error.reason or 'the file is missing'}") from error
+        except (OSError, KeyError, ValueError, RuntimeError) as error:
+            raise WrongInput(f"{path} is damaged: {one_line(error)}") from error
+
+    def displacement(self, time):
+        """The displacements of the vertices [m] in the state nearest to @p time."""
+        first = int(np.abs(self.times - time).argmin()) * len(self.points)
+        try:
+            return self.file["VTKHDF/PointData/displacement"][first : first + len(self.points)]
+        except (OSError, RuntimeError) as error:
+            raise WrongInput(f"{self.path} is damaged: {one_line(error)}") from error
+
+    def each(self, times):
+        """For each obstacle its points, its triangles of these, whether it is hollow, and its displacements [m] in the states nearest to some times."""
+        moves = np.stack([self.displacement(time) for time in times])
+        for number in np.unique(self.owners):
+            own = self.owners == number
+            vertices, corners = np.unique(self.triangles[own], return_inverse=True)
+            yield self.points[vertices], corners.reshape(-1, 3), bool(self.is_hollow[own][0]), moves[:, vertices[0]]
+
+
 class Run:
     """The results in a folder, as they were when the folder was opened. Numbers have the units of the files.
 
@@ -104,6 +141,11 @@ class Run:
             check_parts(path, data)
         except BadPart as error:
             raise OSError(f"{error.path.relative_to(self.folder)}: {error.reason or 'the file is missing'}") from error
+
+    def obstacles(self):
+        """The obstacles; None if there are none."""
+        path = self.folder / "obstacles.vtkhdf"
+        return Obstacles(path) if path.exists() else None
 
     def rows(self, group, name, n, state):
         data = self.file["VTKHDF"][group][name]

@@ -12,7 +12,7 @@ import matplotlib.ticker
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-BLACK, GREY = (30, 30, 30), (120, 120, 120)
+BLACK, GREY, OBSTACLE = (30, 30, 30), (120, 120, 120), (205, 205, 210)
 
 
 @dataclasses.dataclass
@@ -22,6 +22,14 @@ class Body:
     triangles: np.ndarray
     values: np.ndarray
     lines: np.ndarray
+
+
+@dataclasses.dataclass
+class Shape:
+    """Rigid obstacles in a state: places of the vertices, triangles, and for each triangle whether one looks through it."""
+    points: np.ndarray
+    triangles: np.ndarray
+    is_clear: np.ndarray
 
 
 @dataclasses.dataclass
@@ -69,8 +77,8 @@ def font(pixels):
     return ImageFont.truetype(matplotlib.font_manager.findfont("DejaVu Sans"), pixels)
 
 
-def draw_bodies(view, bodies, outline, legend):
-    """Draws the bodies, and the outline as lines in space. Returns an image without texts."""
+def draw_bodies(view, bodies, shapes, outline, legend):
+    """Draws the bodies and the obstacles, and the outline as lines in space. Returns an image without texts."""
     import pyvista as pv
     plotter = pv.Plotter(off_screen=True, window_size=view.size, lighting="light kit")
     plotter.set_background("white")
@@ -86,10 +94,21 @@ def draw_bodies(view, bodies, outline, legend):
         if len(body.lines):
             # The lines are moved a little towards the eye, so that the surface does not hide them.
             add_lines(plotter, body.points + 1e-3 * view.height * view.towards, body.lines, BLACK, 1.2 * font_size(view.size) / 20, 0.45)
+    for shape in shapes:
+        add_shape(plotter, shape)
     view.set_camera(plotter)
     image = Image.fromarray(plotter.screenshot(return_img=True))
     plotter.close()
     return image
+
+
+def add_shape(plotter, shape):
+    import pyvista as pv
+    for triangles, opacity in ((shape.triangles[~shape.is_clear], 1), (shape.triangles[shape.is_clear], 0.25)):
+        if len(triangles):
+            mesh = pv.PolyData(shape.points, np.insert(triangles, 0, 3, axis=1).ravel())
+            mesh = mesh.compute_normals(cell_normals=False, point_normals=True, split_vertices=True, feature_angle=35, consistent_normals=False)
+            plotter.add_mesh(mesh, color=[c / 255 for c in OBSTACLE], opacity=opacity, ambient=0.3, diffuse=0.7, smooth_shading=True)
 
 
 def add_lines(plotter, points, lines, colour, width, opacity):

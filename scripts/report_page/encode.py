@@ -12,6 +12,9 @@ import zlib
 
 import numpy as np
 
+from commands import WrongInput
+from results import Obstacles
+
 from . import fields as field_module
 from .fields import Reader, values_of
 from .mesh import Quality
@@ -118,10 +121,21 @@ class Encoder:
             raise ReportError(f"{self.series.path} has no state whose numbers are finite")
         return found
 
+    def obstacles(self, times):
+        """The obstacles, with their displacements in the states at some times."""
+        path = self.series.path.with_name("obstacles.vtkhdf")
+        if self.kind != "simulation" or not path.exists():
+            return []
+        try:
+            return [{"points": [[float(f"{x:.7g}") for x in point] for point in points], "triangles": triangles.tolist(), "isHollow": is_hollow,
+                     "moves": moves.tolist()} for points, triangles, is_hollow, moves in Obstacles(path).each(times)]
+        except WrongInput as error:
+            raise ReportError(str(error)) from error
+
     def describe(self, states, arrays):
         """The description of surface, fields and states that the page's scripts need, without the blocks."""
         s = self.surface
         return {"degree": s.degree, "nodes": len(s.nodes), "places": len(s.weights()), "nodesOfFace": s.faces.shape[1], "arrays": arrays,
-                "states": states, "isThinned": self.is_thinned,
+                "states": states, "isThinned": self.is_thinned, "obstacles": self.obstacles([state["time"] for state in states]),
                 "bounds": [s.rest.min(axis=0).tolist(), s.rest.max(axis=0).tolist()],
                 "fields": [{"name": f.name, "unit": f.unit, "components": f.components, "options": [vars(o) for o in f.options]} for f in self.fields]}

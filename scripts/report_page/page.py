@@ -217,7 +217,8 @@ def page(folder):
     if not encoder:
         return assemble([], "")
     geometry, arrays = encoder.geometry()
-    room = MAX_BYTES - ROOM_TO_SPARE - len(assemble([], "").encode()) - len(geometry) - 700 * len(encoder.series.times)
+    taken = len(assemble([], "").encode()) + len(geometry) + len(json_text(encoder.obstacles(encoder.series.times)))
+    room = MAX_BYTES - ROOM_TO_SPARE - taken - 700 * len(encoder.series.times)
     states = encoder.states(room)
     if run.kind == "modes":
         for _, state in states:

@@ -105,6 +105,11 @@ def conditions(run):
         yield "Supports", supports or "none: the body is free"
     if run.is_modal:
         return
+    contact = given(("obstacles, with lengths in m:", "Contact/Obstacles"), ("motions in m:", "Contact/Motions"), ("boundaries that touch:", "Contact/Boundaries"),
+                    ("stiffness in N/m³:", "Contact/Stiffness"), ("friction:", "Contact/Friction"))
+    if contact:
+        friction = "" if is_zero(entry("Contact/Slip velocity")) else f"; slip velocity {value(entry('Contact/Slip velocity'), 'm/s')}"
+        yield "Contact", contact + friction
     loads = [f"{name} {vector(entry(path), unit)}"
              for name, path, unit in (("gravity", "Loads/Gravity", "m/s²"), ("body force", "Loads/Body force", "N/m³"))
              if entry(path) and not is_zero(entry(path))]

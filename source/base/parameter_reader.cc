@@ -270,6 +270,13 @@ namespace corotet
         std::ifstream file = open_file(path);
         return read_xml_statements(path, file);
       }
+    if (ending != ".prm" && fs::is_directory(path))
+      refuse_statement(
+        path, "found a folder; allowed are files .prm, .json and .xml");
+    if (ending.empty() && fs::is_regular_file(path + ".prm"))
+      refuse_statement(path,
+                       "there is no such parameter file; do you mean '" +
+                         shortened(path + ".prm") + "'?");
     if (ending != ".prm")
       refuse_statement(
         path,

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/forces/contact.h>
-#include <corotet/operators/elasticity.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -10,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace corotet
 {
@@ -19,98 +17,12 @@ namespace corotet
 
   namespace
   {
-    // Points of a face of any degree are less than this many times as far from
-    // its first node as the farthest node.
-    constexpr double reach_of_face = 3;
-
     SurfaceMatrix::Tensor
     along(const Tensor<1, 3> &n)
     {
       return symmetrize(outer_product(n, n));
     }
   } // namespace
-
-  ContactSurface::ContactSurface(const ForceContext           &context,
-                                 const std::set<unsigned int> &touching)
-    : discretization(context.discretization)
-    , reference(context.reference)
-    , n_points(context.reference.face_rules[0].weights.size())
-  {
-    const auto             lists = {&discretization.boundary_faces(),
-                                    &discretization.ghost_boundary_faces()};
-    std::set<unsigned int> ids   = touching;
-    if (ids.empty())
-      for (const auto *list : lists)
-        for (const BoundaryFace &face : *list)
-          ids.insert(face.boundary);
-    for (const unsigned int id : ids)
-      {
-        const std::size_t first = faces.size();
-        for (const auto *list : lists)
-          for (const BoundaryFace &face : *list)
-            if (face.boundary == id)
-              add(face, context.elasticity);
-        boundaries.push_back({id, first, faces.size() - first});
-      }
-    double area = 0;
-    for (const BoundaryFace &face : discretization.boundary_faces())
-      for_each_surface_point(
-        discretization, reference, face, nullptr, [&](const SurfacePoint &at) {
-          area += at.area.norm();
-        });
-    thickness =
-      2 * discretization.volume() /
-      dealii::Utilities::MPI::sum(area, discretization.communicator());
-  }
-
-  double
-  ContactSurface::stiffness(const Face &face) const
-  {
-    const double thin = std::min(1., 3 * thickness / face.size);
-    return 10 * face.youngs_modulus / face.size * thin * thin * thin;
-  }
-
-  void
-  ContactSurface::add(const BoundaryFace &face, const Elasticity &elasticity)
-  {
-    double       area = 0;
-    Tensor<1, 3> normal;
-    Point<3>     on_face;
-    for_each_surface_point(
-      discretization, reference, face, nullptr, [&](const SurfacePoint &point) {
-        areas.push_back(point.area.norm());
-        area += areas.back();
-        normal += point.area;
-        on_face = point.at_rest;
-      });
-    // The highest corner is the one that is not on the face.
-    const auto nodes  = discretization.cell_nodes(face.cell);
-    double     height = 0;
-    for (unsigned int i = 0; i < 4; ++i)
-      height =
-        std::max(height,
-                 (on_face - discretization.node_position(nodes[i])) * normal);
-    height /= normal.norm();
-    const IsotropicMaterial &material = elasticity.material(face.cell);
-    faces.push_back({face.cell,
-                     face.face,
-                     2 * material.mu * (1 + poissons_ratio(material)),
-                     std::max(height, std::sqrt(2 * area))});
-  }
-
-  std::pair<double, double>
-  ContactSurface::range_of_stiffness() const
-  {
-    double least = std::numeric_limits<double>::infinity(), most = 0;
-    for (const Face &face : faces)
-      {
-        least = std::min(least, stiffness(face));
-        most  = std::max(most, stiffness(face));
-      }
-    const MPI_Comm comm = discretization.communicator();
-    return {dealii::Utilities::MPI::min(least, comm),
-            dealii::Utilities::MPI::max(most, comm)};
-  }
 
   template <typename Function>
   void
@@ -120,33 +32,29 @@ namespace corotet
   {
     const Discretization    &discretization = surface->discretization;
     const ReferenceElement  &reference      = surface->reference;
+    const unsigned int       n_nodes        = surface->nodes_per_face();
     const Tensor<1, 3>       moved = the_obstacle->displacement(motion.time);
     std::array<Point<3>, 10> x;
-    for (std::size_t f = 0; f < surface->faces.size(); ++f)
+    AssertIndexRange(n_nodes, x.size() + 1);
+    for (const std::size_t f : nearby.find(motion.u, moved))
       {
         const ContactSurface::Face &face = surface->faces[f];
         if (!with_ghosts && face.cell >= discretization.n_owned_cells())
           continue;
-        const auto  nodes      = discretization.cell_nodes(face.cell);
-        const auto &face_nodes = reference.face_nodes[face.face];
-        AssertIndexRange(face_nodes.size(), x.size() + 1);
-        double size = 0;
-        for (unsigned int k = 0; k < face_nodes.size(); ++k)
+        const unsigned int *nodes = surface->nodes_of(f);
+        for (unsigned int k = 0; k < n_nodes; ++k)
           {
-            const unsigned int node = nodes[face_nodes[k]];
-            x[k] = discretization.node_position(node) - moved;
+            x[k] = discretization.node_position(nodes[k]) - moved;
             for (unsigned int a = 0; a < 3; ++a)
-              x[k][a] += motion.u.local_element(3 * node + a);
-            size = std::max(size, x[k].distance(x[0]));
+              x[k][a] += motion.u.local_element(3 * nodes[k] + a);
           }
-        if (the_obstacle->gap(x[0]).distance > reach_of_face * size)
-          continue;
-        const auto &values = reference.face_rules[face.face].values;
+        const auto &face_nodes = reference.face_nodes[face.face];
+        const auto &values     = reference.face_rules[face.face].values;
         for (unsigned int q = 0; q < surface->n_points; ++q)
           {
             // The values of all functions sum up to one.
             Tensor<1, 3> from_first;
-            for (unsigned int k = 1; k < face_nodes.size(); ++k)
+            for (unsigned int k = 1; k < n_nodes; ++k)
               from_first += values[q][face_nodes[k]] * (x[k] - x[0]);
             const Obstacle::Gap gap = the_obstacle->gap(x[0] + from_first);
             if (gap.distance < 0)
@@ -188,20 +96,13 @@ namespace corotet
                        const Motion   &motion,
                        const Function &tensor) const
   {
-    std::vector<SurfaceMatrix::Tensor *> starts;
-    for (const ContactSurface::Boundary &boundary : surface->boundaries)
-      S.tensors_of(boundary.id);
-    // Tensors have their place only now.
-    for (const ContactSurface::Boundary &boundary : surface->boundaries)
-      starts.push_back(S.tensors_of(boundary.id));
-    std::size_t b = 0;
+    auto boundary = surface->boundaries.begin();
     for_each_point(motion, true, [&](const TouchingPoint &point) {
-      while (point.face >=
-             surface->boundaries[b].first + surface->boundaries[b].n_faces)
-        ++b;
-      starts[b]
-            [surface->n_points * (point.face - surface->boundaries[b].first) +
-             point.point] += tensor(point);
+      while (point.face >= boundary->first + boundary->n_faces)
+        ++boundary;
+      const unsigned int face =
+        S.first_face(boundary->id) + (point.face - boundary->first);
+      S.tensors_of(face)[point.point] += tensor(point);
     });
   }
 
@@ -244,18 +145,16 @@ namespace corotet
   {
     for (const ContactSurface::Boundary &boundary : surface->boundaries)
       {
-        SurfaceMatrix::Tensor *D = S.tensors_of(boundary.id);
-        for (std::size_t f = boundary.first;
-             f < boundary.first + boundary.n_faces;
-             ++f)
-          for (unsigned int q = 0; q < surface->n_points; ++q, ++D)
-            {
-              // The normal may have any direction.
-              const double k =
-                stiffness_of(surface->faces[f]) * surface->area(f, q);
-              for (unsigned int a = 0; a < 3; ++a)
-                (*D)[a][a] += k;
-            }
+        const unsigned int first = S.first_face(boundary.id);
+        for (std::size_t i = 0; i < boundary.n_faces; ++i)
+          {
+            const std::size_t      f = boundary.first + i;
+            SurfaceMatrix::Tensor *D = S.tensors_of(first + i);
+            // The normal may have any direction.
+            for (unsigned int q = 0; q < surface->n_points; ++q)
+              D[q] += stiffness_of(surface->faces[f]) * surface->area(f, q) *
+                      dealii::unit_symmetric_tensor<3>();
+          }
       }
   }
 

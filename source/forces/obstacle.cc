@@ -99,7 +99,7 @@ namespace corotet
                                    std::istream_iterator<std::string>()};
     if (!words.empty() && words[0] == "not")
       {
-        is_hollow = true;
+        hollow = true;
         words.erase(words.begin());
       }
     const std::map<std::string, std::pair<Kind, std::size_t>> kinds{
@@ -227,7 +227,7 @@ namespace corotet
   Obstacle::gap(const Point<3> &x) const
   {
     Gap gap = gap_of_shape(x);
-    if (is_hollow)
+    if (hollow)
       {
         gap.distance = -gap.distance;
         gap.normal   = -gap.normal;

@@ -282,16 +282,21 @@ namespace corotet::gmsh_program
         return;
       double x[6];
       gmsh::model::getBoundingBox(-1, -1, x[0], x[1], x[2], x[3], x[4], x[5]);
+      const std::string refined =
+        request.n_refinements == 0 ?
+          "" :
+          std::format(" before {} refinements", request.n_refinements);
       throw std::runtime_error(std::format(
         "edges of {:g} make some {:.0e} cells of a body of {:.3g} x {:.3g} x "
-        "{:.3g}; {} are allowed. All of these lengths are in the unit of the "
-        "file, which is a millimetre for STEP and IGES",
+        "{:.3g}; {:.3g} are allowed{}. All of these lengths are in the unit "
+        "of the file, which is a millimetre for STEP and IGES",
         request.element_size,
         n,
         x[3] - x[0],
         x[4] - x[1],
         x[5] - x[2],
-        request.max_n_cells));
+        request.max_n_cells,
+        refined));
     }
   } // namespace
 

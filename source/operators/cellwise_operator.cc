@@ -89,7 +89,6 @@ namespace corotet
         const bool fetch = !src.has_ghost_elements();
         if (fetch)
           src.update_ghost_values();
-        surface->set_zero(surface_product);
         surface->add(surface_product, src);
         const T *const diagonal =
           lumped_mass != nullptr ? lumped_mass->begin() : nullptr;
@@ -101,6 +100,8 @@ namespace corotet
               lumped * load_as<V>(diagonal + i) * load_as<V>(src.begin() + i);
           store(i, sum);
         });
+        // The next product may have other rows.
+        surface->set_zero(surface_product);
         if (fetch)
           src.zero_out_ghost_values();
       }

@@ -130,6 +130,59 @@ namespace corotet
     return result;
   }
 
+  std::vector<std::shared_ptr<const Obstacle>>
+  ForceTerms::obstacle_shapes() const
+  {
+    std::vector<std::shared_ptr<const Obstacle>> result;
+    for (const auto &term : terms)
+      if (const auto shape = term->obstacle_shape();
+          shape &&
+          std::find(result.begin(), result.end(), shape) == result.end())
+        result.push_back(shape);
+    return result;
+  }
+
+  std::set<unsigned int>
+  ForceTerms::ground_boundaries() const
+  {
+    std::set<unsigned int> result;
+    for (const auto &term : terms)
+      if (const auto boundary = term->ground_boundary())
+        result.insert(*boundary);
+    return result;
+  }
+
+  std::vector<GroundForce>
+  ForceTerms::ground_forces(const Motion &motion) const
+  {
+    std::vector<GroundForce> result;
+    for (const unsigned int boundary : ground_boundaries())
+      {
+        Vector &f = zero_vector();
+        for (const auto &term : terms)
+          if (term->ground_boundary() == boundary)
+            term->add_force(f, motion);
+        f.compress(dealii::VectorOperation::add);
+        dealii::Tensor<1, 3> force, moment;
+        for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
+          {
+            dealii::Tensor<1, 3> at_node, x = discretization.node_position(n);
+            for (unsigned int a = 0; a < 3; ++a)
+              {
+                at_node[a] = f.local_element(3 * n + a);
+                x[a] += motion.u.local_element(3 * n + a);
+              }
+            force += at_node;
+            moment += cross_product_3d(x, at_node);
+          }
+        const MPI_Comm comm = discretization.communicator();
+        result.push_back({boundary,
+                          dealii::Utilities::MPI::sum(force, comm),
+                          dealii::Utilities::MPI::sum(moment, comm)});
+      }
+    return result;
+  }
+
   std::vector<std::pair<std::string, dealii::Tensor<1, 3>>>
   ForceTerms::contact_forces(const Motion &motion) const
   {

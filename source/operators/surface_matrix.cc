@@ -20,7 +20,34 @@ namespace corotet
   void
   SurfaceMatrix::clear()
   {
-    std::fill(all_tensors.begin(), all_tensors.end(), Tensor());
+    for (const std::size_t face : used)
+      {
+        std::fill_n(all_tensors.begin() + points_per_face() * face,
+                    points_per_face(),
+                    Tensor());
+        is_used[face] = 0;
+      }
+    used.clear();
+  }
+
+  SurfaceMatrix::Tensor *
+  SurfaceMatrix::tensors_of(const unsigned int face)
+  {
+    AssertIndexRange(face, all_faces.size());
+    if (is_used[face] == 0)
+      {
+        is_used[face] = 1;
+        used.push_back(face);
+      }
+    return all_tensors.data() + std::size_t(points_per_face()) * face;
+  }
+
+  std::vector<unsigned int>
+  SurfaceMatrix::used_faces() const
+  {
+    std::vector<unsigned int> result = used;
+    std::sort(result.begin(), result.end());
+    return result;
   }
 
   unsigned int
@@ -38,6 +65,7 @@ namespace corotet
     ranges[boundary] = {first, all_faces.size() - first};
     all_tensors.resize(static_cast<std::size_t>(points_per_face()) *
                        all_faces.size());
+    is_used.resize(all_faces.size());
     return first;
   }
 
@@ -47,21 +75,27 @@ namespace corotet
     const std::size_t n_points = points_per_face();
     for (const auto &[boundary, range] : other.ranges)
       {
-        // This call may move the vector, so it comes before data().
         const unsigned int first = first_face(boundary);
-        Tensor            *to    = all_tensors.data() + n_points * first;
-        const Tensor *from = other.all_tensors.data() + n_points * range.first;
-        for (std::size_t i = 0; i < n_points * range.second; ++i)
-          to[i] += factor * from[i];
+        for (unsigned int f = 0; f < range.second; ++f)
+          if (other.is_used[range.first + f] != 0)
+            {
+              Tensor       *to = tensors_of(first + f);
+              const Tensor *from =
+                &other.all_tensors[n_points * (range.first + f)];
+              for (std::size_t q = 0; q < n_points; ++q)
+                to[q] += factor * from[q];
+            }
       }
   }
 
   double
   SurfaceMatrix::size() const
   {
-    double largest = 0;
-    for (const Tensor &D : all_tensors)
-      largest = std::max(largest, D.norm());
+    const std::size_t n_points = points_per_face();
+    double            largest  = 0;
+    for (const std::size_t face : used)
+      for (std::size_t q = 0; q < n_points; ++q)
+        largest = std::max(largest, all_tensors[n_points * face + q].norm());
     return dealii::Utilities::MPI::max(largest, disc.communicator());
   }
 
@@ -113,21 +147,32 @@ namespace corotet
       }
     faces = matrix.faces();
     face_nodes.clear();
-    rows.clear();
     for (const SurfaceMatrix::Face &face : faces)
       for (const unsigned int i : reference.face_nodes[face.face])
-        {
-          const unsigned int node = nodes.cell_nodes(face.cell)[i];
-          face_nodes.push_back(node);
-          if (node < nodes.n_owned_nodes())
-            rows.push_back(node);
-        }
+        face_nodes.push_back(nodes.cell_nodes(face.cell)[i]);
+    tensors.resize(matrix.tensors().size());
+    active_faces.clear();
+    find_rows();
+  }
+
+  template <typename T>
+  void
+  SurfaceOperator<T>::find_rows()
+  {
+    rows.clear();
+    for (const std::size_t f : active_faces)
+      for (unsigned int k = 0; k < n_face_nodes; ++k)
+        if (face_nodes[f * n_face_nodes + k] < nodes.n_owned_nodes())
+          rows.push_back(face_nodes[f * n_face_nodes + k]);
     std::sort(rows.begin(), rows.end());
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     places.clear();
-    for (const unsigned int node : face_nodes)
-      places.push_back(std::lower_bound(rows.begin(), rows.end(), node) -
-                       rows.begin());
+    for (const std::size_t f : active_faces)
+      for (unsigned int k = 0; k < n_face_nodes; ++k)
+        places.push_back(std::lower_bound(rows.begin(),
+                                          rows.end(),
+                                          face_nodes[f * n_face_nodes + k]) -
+                         rows.begin());
     blocks.resize(rows.size());
   }
 
@@ -137,29 +182,35 @@ namespace corotet
   {
     if (n_points == 0 || faces.size() != matrix.faces().size())
       find_nodes(matrix);
-    tensors.resize(matrix.tensors().size());
-    active_faces.clear();
-    for (std::size_t i = 0; i < tensors.size(); ++i)
+    std::vector<unsigned int> active;
+    for (const std::size_t f : matrix.used_faces())
       {
-        tensors[i]              = factor * matrix.tensors()[i];
-        const unsigned int face = i / n_points;
-        if (tensors[i] != Tensor() &&
-            (active_faces.empty() || active_faces.back() != face))
-          active_faces.push_back(face);
+        bool is_active = false;
+        for (unsigned int q = 0; q < n_points; ++q)
+          {
+            const std::size_t i = f * n_points + q;
+            tensors[i]          = factor * matrix.tensors()[i];
+            is_active           = is_active || tensors[i] != Tensor();
+          }
+        if (is_active)
+          active.push_back(f);
+      }
+    if (active != active_faces)
+      {
+        active_faces.swap(active);
+        find_rows();
       }
 
-    std::fill(blocks.begin(), blocks.end(), SurfaceMatrix::Tensor());
+    std::fill(blocks.begin(), blocks.end(), Tensor());
+    const unsigned int *place = places.data();
     for (const std::size_t f : active_faces)
-      for (unsigned int k = 0; k < n_face_nodes; ++k)
+      for (unsigned int k = 0; k < n_face_nodes; ++k, ++place)
         if (face_nodes[f * n_face_nodes + k] < nodes.n_owned_nodes())
-          {
-            SurfaceMatrix::Tensor &block = blocks[places[f * n_face_nodes + k]];
-            for (unsigned int q = 0; q < n_points; ++q)
-              {
-                const double N = values[faces[f].face][q * n_face_nodes + k];
-                block += factor * N * N * matrix.tensors()[f * n_points + q];
-              }
-          }
+          for (unsigned int q = 0; q < n_points; ++q)
+            {
+              const double N = values[faces[f].face][q * n_face_nodes + k];
+              blocks[*place] += N * N * tensors[f * n_points + q];
+            }
   }
 
   template <typename T>
@@ -224,7 +275,7 @@ namespace corotet
   SurfaceOperator<T>::energy(const VectorType &x) const
   {
     double sum = 0;
-    for (std::size_t f = 0; f < faces.size(); ++f)
+    for (const std::size_t f : active_faces)
       if (faces[f].cell < nodes.n_owned_cells())
         for (unsigned int q = 0; q < n_points; ++q)
           {

@@ -148,14 +148,16 @@ namespace corotet
   }
 
   HistoryColumns::HistoryColumns(const OutputParameters &parameters,
-                                 const Body             &body,
+                                 const Simulation       &simulation,
                                  Log                    &log)
-    : probes(parameters.probe_points(), body.discretization, &log)
-    , reactions(parameters.supports(), body)
+    : probes(parameters.probe_points(), simulation.body().discretization, &log)
+    , reactions(parameters.supports(),
+                simulation.body(),
+                simulation.ground_boundaries())
   {
     if (const auto points = parameters.stress_probe_points(); !points.empty())
       stress_probes.emplace(points,
-                            body.discretization,
+                            simulation.body().discretization,
                             parameters.raw_stress_at_probes,
                             &log);
   }

@@ -2,6 +2,7 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/output/observers.h>
+#include <corotet/output/obstacle_writer.h>
 #include <corotet/output/progress.h>
 #include <corotet/output/stress_points_writer.h>
 #include <corotet/output/summary_writer.h>
@@ -10,13 +11,14 @@
 namespace corotet
 {
   std::vector<std::unique_ptr<Observer>>
-  make_observers(const OutputParameters &parameters,
-                 const std::string      &directory,
-                 const HistoryColumns   &columns,
-                 const MPI_Comm          comm,
-                 const double            start_time,
-                 const double            end_time,
-                 Log                    &log)
+  make_observers(const OutputParameters                             &parameters,
+                 const std::string                                  &directory,
+                 const HistoryColumns                               &columns,
+                 const MPI_Comm                                      comm,
+                 const double                                        start_time,
+                 const double                                        end_time,
+                 Log                                                &log,
+                 const std::vector<std::shared_ptr<const Obstacle>> &obstacles)
   {
     const double time_between_states =
       parameters.time_between_states(end_time - start_time);
@@ -30,6 +32,9 @@ namespace corotet
     if (parameters.has_stress_at_points())
       observers.push_back(
         std::make_unique<StressPointsWriter>(directory, time_between_states));
+    if (!obstacles.empty())
+      observers.push_back(std::make_unique<ObstacleWriter>(
+        obstacles, directory, time_between_states));
     observers.push_back(std::move(history));
     observers.push_back(std::move(summary));
     observers.push_back(std::make_unique<Progress>(start_time, end_time, log));

@@ -34,15 +34,16 @@ namespace corotet
     const std::array<std::string_view, 6> own_files{
       {R"(study(_[A-Za-z0-9_]+)?\.(csv|tex|svg|png)(\.tmp)?)",
        R"(rows/[^/]+\.(json|log)(\.tmp)?)",
-       R"((solution\.vtkhdf|stress_points\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
-       R"((solution|stress_points)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
+       R"(((solution|stress_points|obstacles)\.vtkhdf|history\.csv|modes\.csv|verification\.csv|summary\.json|parameters\.prm|log\.txt)(\.tmp)?)",
+       R"((solution|stress_points|obstacles)/(mesh|step_[0-9]+|block_[0-9_]+)\.h5(\.tmp)?)",
        R"((rows/[^/]+/)?checkpoint/step_[0-9]+(_[0-9]+)?\.(h5|json)(\.tmp)?)",
        // The page of a run, and its temporary files while scripts/report writes
        // it.
        R"(report\.html|\.report\.html\..*)"}};
-    const std::array<std::string_view, 4> own_folders{
+    const std::array<std::string_view, 5> own_folders{
       {"solution",
        "stress_points",
+       "obstacles",
        "rows(/[^/]+)?",
        "(rows/[^/]+/)?checkpoint"}};
 
@@ -140,9 +141,11 @@ namespace corotet
       if (!overwrite)
         throw InputError(directory_entry,
                          "the output directory '" + directory.string() +
-                           "' is not empty; choose another one, or set "
-                           "Output/Overwrite = true to remove the results in "
-                           "it");
+                           "' is not empty; choose another one" +
+                           (fs::exists(directory / ".corotet") ?
+                              ", or set Output/Overwrite = true to remove the "
+                              "results in it" :
+                              ""));
       return old_results(directory);
     }
 

@@ -165,8 +165,8 @@ namespace corotet
       "Supports whose force and moment about the origin on the body go into "
       "history.csv: 'NAME: place, ...', places as in Boundary "
       "conditions/Fixed, for example 'clamp: x-min, rope: x-max & y-max & "
-      "z-max'. Nodes that several have in common count for each. Nodes that "
-      "are fixed or prescribed count, springs do not.",
+      "z-max'. Nodes that several have in common count for each. What is "
+      "fixed or prescribed counts, and springs and dashpots on these boundaries.",
       dealii::Patterns::Anything());
   }
 

@@ -37,7 +37,7 @@ namespace corotet
       Vector().swap(*vector);
   }
 
-  void
+  EquationOfMotion::Forces &
   AccelerationSolver::solve_lumped(State       &state,
                                    const double time,
                                    const double velocity_factor,
@@ -75,6 +75,57 @@ namespace corotet
           if (damping != nullptr)
             damping[i] += c * inertia[i];
         }
+    return forces;
+  }
+
+  unsigned int
+  AccelerationSolver::solve_lumped_with_surface_damping(
+    State       &state,
+    const double time,
+    const double velocity_factor,
+    const double c)
+  {
+    EquationOfMotion::Forces &forces =
+      solve_lumped(state, time, velocity_factor, c);
+    ScopedTimer                    timer(equation.wall_times.solve);
+    const SurfaceOperator<double> &C = surface_damping(time, velocity_factor);
+    const auto                     for_each_entry = [&](const auto &function) {
+      for (const unsigned int node : C.owned_nodes())
+        for (unsigned int i = 3 * node; i < 3 * node + 3; ++i)
+          function(i, body.motion.is_prescribed()[i] != 0);
+    };
+    // Where C does not act, the accelerations are right.
+    for_each_entry([&](const unsigned int i, const bool is_prescribed) {
+      residual.local_element(i) = 0;
+      ghosted.local_element(i)  = is_prescribed ? state.a.local_element(i) : 0.;
+    });
+    ghosted.update_ghost_values();
+    C.add(residual, ghosted, -1.);
+    for_each_entry([&](const unsigned int i, const bool is_prescribed) {
+      residual.local_element(i) =
+        is_prescribed ?
+          0. :
+          residual.local_element(i) + (1 + c) * forces.inertia.local_element(i);
+    });
+    const unsigned int n_iterations =
+      mass_solver().solve(acceleration, residual, 1 + c, C);
+
+    const Vector &m = body.mass.diagonal();
+    for_each_entry([&](const unsigned int i, const bool is_prescribed) {
+      double &a = state.a.local_element(i);
+      if (!is_prescribed)
+        {
+          const double change = acceleration.local_element(i) - a;
+          a += change;
+          state.v.local_element(i) += velocity_factor * change;
+          forces.inertia.local_element(i) += m.local_element(i) * change;
+          forces.damping.local_element(i) += c * m.local_element(i) * change;
+        }
+      ghosted.local_element(i) = a;
+    });
+    ghosted.update_ghost_values();
+    C.add(forces.damping, ghosted);
+    return n_iterations;
   }
 
   StageReport
@@ -115,16 +166,20 @@ namespace corotet
     const double      c     = velocity_factor * terms.damping_shares().mass;
     const bool        has_surface_damping =
       velocity_factor != 0 && terms.has_surface_damping();
-    if (body.mass.is_lumped() && !has_surface_damping)
-      {
-        solve_lumped(state, time, velocity_factor, c);
-        return {};
-      }
-
+    if (has_surface_damping || !body.mass.is_lumped())
+      if (residual.size() == 0)
+        for (Vector *vector : {&residual, &acceleration, &ghosted})
+          body.discretization.initialize_vector(*vector);
     StageReport report;
-    if (residual.size() == 0)
-      for (Vector *vector : {&residual, &acceleration, &ghosted})
-        body.discretization.initialize_vector(*vector);
+    if (body.mass.is_lumped())
+      {
+        if (has_surface_damping)
+          report.linear_iterations =
+            solve_lumped_with_surface_damping(state, time, velocity_factor, c);
+        else
+          solve_lumped(state, time, velocity_factor, c);
+        return report;
+      }
     // The free accelerations follow from the prescribed ones: M_ff a_f = r_f.
     for (unsigned int i = 0; i < state.a.locally_owned_size(); ++i)
       if (!body.motion.is_prescribed()[i])

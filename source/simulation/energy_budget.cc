@@ -52,11 +52,11 @@ namespace corotet
     body.discretization.initialize_vector(last.external);
     if (force_terms.has_damping())
       body.discretization.initialize_vector(last.damping);
-    if (force_terms.has_friction())
+    if (force_terms.has_friction() && !force_terms.has_only_friction())
       {
         for (Vector *vector : {&friction, &last.friction})
           body.discretization.initialize_vector(*vector);
-        find_friction();
+        force_terms.friction_force(friction, equation.last_motion());
       }
     body.discretization.initialize_vector(last.displacement);
     last.carried.resize(n_prescribed);
@@ -69,6 +69,8 @@ namespace corotet
     initial_changing_energy =
       force_terms.changing_energy(equation.motion(time));
     record(initial, initial_state, time);
+    initial_energy         = initial.kinetic_energy + initial.elastic_energy;
+    initial.energy_balance = 0;
     if (!equation.is_dynamic && initial.max_displacement > 0)
       begin_unloaded(initial_state);
   }
@@ -83,14 +85,15 @@ namespace corotet
     at_rest.u     = 0;
     equation.evaluate(at_rest, time, load);
     end_step(at_rest);
+    const Motion motion     = equation.motion(time);
+    initial_energy          = force_terms.energy(motion);
+    initial_changing_energy = force_terms.changing_energy(motion);
     // A step that fails is tried again from the guess.
     last.displacement = guess.u;
     equation.evaluate(guess, time, load);
-    began_unloaded          = true;
-    is_unloaded             = true;
-    initial_changing_energy = 0;
+    is_unloaded = true;
     // The balance begins with the guess's energy, for which no work was done.
-    initial.energy_balance = initial.elastic_energy;
+    find_balance(initial, equation.motion(time));
   }
 
   double
@@ -109,16 +112,6 @@ namespace corotet
       return terms.external.local_element(i);
     return terms.internal.local_element(i) +
            (terms.elastic.size() > 0 ? terms.elastic.local_element(i) : 0.);
-  }
-
-  void
-  EnergyBudget::find_friction()
-  {
-    // Damping forces of explicit steps are completed after their evaluation.
-    if (force_terms.has_only_friction())
-      friction = equation.last_forces().damping;
-    else
-      force_terms.friction_force(friction, equation.last_motion());
   }
 
   void
@@ -175,10 +168,10 @@ namespace corotet
     archive.transfer("dt", dt);
     archive.transfer("work", work);
     archive.transfer("dissipation", dissipation);
-    if (friction.size() > 0)
+    if (force_terms.has_friction())
       archive.transfer("friction_work", friction_work);
     archive.transfer("initial_changing_energy", initial_changing_energy);
-    archive.transfer("began_unloaded", began_unloaded);
+    archive.transfer("initial_energy", initial_energy);
     archive.transfer("is_unloaded", is_unloaded);
     archive.within("initial", [&] { initial.transfer(archive); });
     archive.within("last", [&] { transfer_forces(archive, last); });
@@ -216,7 +209,7 @@ namespace corotet
         sums[1] += middle_damping(i) * du(i);
     if (friction.size() > 0)
       {
-        find_friction();
+        force_terms.friction_force(friction, equation.last_motion());
         for (unsigned int i = 0; i < n; ++i)
           sums[2] += (c * friction.local_element(i) +
                       (1 - c) * last.friction.local_element(i)) *
@@ -234,6 +227,8 @@ namespace corotet
         if (has_damping)
           sums[1] += middle_damping(i) * (dv - du(i));
       }
+    if (force_terms.has_only_friction())
+      sums[2] = sums[1];
     sums =
       dealii::Utilities::MPI::sum(sums, body.discretization.communicator());
     if (!std::isfinite(sums[0] + sums[1]))
@@ -312,6 +307,7 @@ namespace corotet
     if (has_obstacles)
       record.contact_forces =
         force_terms.contact_forces(equation.last_motion());
+    record.ground_forces = force_terms.ground_forces(equation.last_motion());
 
     // Energies and momenta are those at the end of the step.
     equation.set_state(state);
@@ -369,8 +365,6 @@ namespace corotet
     record.external_work     = external_work;
     record.dissipated_energy = dissipation;
     record.energy_balance    = record.kinetic_energy + record.elastic_energy +
-                            dissipation - external_work;
-    if (!began_unloaded)
-      record.energy_balance -= initial.kinetic_energy + initial.elastic_energy;
+                            dissipation - external_work - initial_energy;
   }
 } // namespace corotet

@@ -3,10 +3,22 @@
 
 #include <corotet/simulation/step_record.h>
 
+#include <sstream>
 #include <string>
 
 namespace corotet
 {
+  namespace
+  {
+    dealii::Tensor<1, 3>
+    vector_at(const std::vector<double> &components, const std::size_t first)
+    {
+      return dealii::Tensor<1, 3>({components.at(first),
+                                   components.at(first + 1),
+                                   components.at(first + 2)});
+    }
+  } // namespace
+
   void
   StepRecord::transfer(Archive &archive)
   {
@@ -41,5 +53,50 @@ namespace corotet
     transfer_vector("angular_momentum", angular_momentum);
     transfer_vector("reaction", reaction);
     transfer_vector("internal_moment", internal_moment);
+    archive.transfer("contact_energy", contact_energy);
+    archive.transfer("friction_work", friction_work);
+    transfer_contact_forces(archive);
+    transfer_ground_forces(archive);
+  }
+
+  void
+  StepRecord::transfer_contact_forces(Archive &archive)
+  {
+    std::vector<double> components;
+    std::string         names;
+    for (const auto &[name, force] : contact_forces)
+      {
+        names += name + ' ';
+        components.insert(components.end(), force.begin_raw(), force.end_raw());
+      }
+    archive.transfer("obstacles", names);
+    archive.transfer("contact_forces", components);
+    contact_forces.clear();
+    std::istringstream words(names);
+    std::string        name;
+    for (std::size_t i = 0; words >> name; i += 3)
+      contact_forces.emplace_back(name, vector_at(components, i));
+  }
+
+  void
+  StepRecord::transfer_ground_forces(Archive &archive)
+  {
+    std::vector<unsigned int> boundaries;
+    std::vector<double>       components;
+    for (const GroundForce &ground : ground_forces)
+      {
+        boundaries.push_back(ground.boundary);
+        for (const auto *vector : {&ground.force, &ground.moment})
+          components.insert(components.end(),
+                            vector->begin_raw(),
+                            vector->end_raw());
+      }
+    archive.transfer("ground_boundaries", boundaries);
+    archive.transfer("ground_forces", components);
+    ground_forces.clear();
+    for (std::size_t i = 0; i < boundaries.size(); ++i)
+      ground_forces.push_back({boundaries[i],
+                               vector_at(components, 6 * i),
+                               vector_at(components, 6 * i + 3)});
   }
 } // namespace corotet

@@ -79,14 +79,18 @@ namespace corotet
                        const double                   c_M,
                        const SurfaceOperator<double> &S) const
   {
-    copy_with_ghosts(ghosted, x);
     if (mass.is_lumped())
-      for_each_coupled(S, [&](const unsigned int i) {
-        product.local_element(i) =
-          c_M * mass.diagonal().local_element(i) * x.local_element(i);
-      });
+      {
+        for_each_coupled(S, [&](const unsigned int i) {
+          ghosted.local_element(i) = x.local_element(i);
+          product.local_element(i) =
+            c_M * mass.diagonal().local_element(i) * x.local_element(i);
+        });
+        ghosted.update_ghost_values();
+      }
     else
       {
+        copy_with_ghosts(ghosted, x);
         mass.apply(product, ghosted);
         product *= c_M;
       }
@@ -119,16 +123,15 @@ namespace corotet
 
     // The start is a division by the diagonal, which is the whole matrix where
     // S does not act.
-    inverse = 0;
+    for_each([&](const unsigned int i) { inverse.local_element(i) = 0; });
     S.add_diagonal(inverse);
-    for (unsigned int i = 0; i < a.locally_owned_size(); ++i)
-      {
-        double &d          = inverse.local_element(i);
-        d                  = motion.is_prescribed()[i] ?
-                               0. :
-                               1 / (c_M * mass.diagonal().local_element(i) + d);
-        a.local_element(i) = d * r.local_element(i);
-      }
+    for_each([&](const unsigned int i) {
+      double &d          = inverse.local_element(i);
+      d                  = motion.is_prescribed()[i] ?
+                             0. :
+                             1 / (c_M * mass.diagonal().local_element(i) + d);
+      a.local_element(i) = d * r.local_element(i);
+    });
     const double size = std::sqrt(sum_of_products(r, r));
     if (!std::isfinite(size) || size <= negligible)
       return 0;

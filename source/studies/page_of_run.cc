@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 namespace corotet
 {
@@ -16,7 +17,7 @@ namespace corotet
   {
     // A text as a shell takes it for one word.
     std::string
-    quoted(const std::string &text)
+    shell_word(const std::string &text)
     {
       const bool is_plain =
         std::all_of(text.begin(), text.end(), [](const unsigned char c) {
@@ -37,13 +38,16 @@ namespace corotet
   {
     const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
     const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
-    // In a build it is the script of the sources, as the documentation calls
-    // it.
-    std::string       script = "scripts/report";
-    const std::string found  = find_installed("share/corotet/" + script);
+    // In a build it is the script of the sources, beside the toolchain.
+    const std::string path = "scripts/report";
+    std::string       script =
+      is_named ?
+              (std::filesystem::path(toolchain).parent_path() / "report").string() :
+              path;
+    const std::string found = find_installed("share/corotet/" + path);
     if (!found.empty() && find_installed("CMakeCache.txt").empty())
-      script = quoted(found);
-    return (is_named ? toolchain + std::string(" ") : "") + script + " " +
-           quoted(as_argument(directory));
+      script = found;
+    return (is_named ? shell_word(toolchain) + " " : "") + shell_word(script) +
+           " " + shell_word(as_argument(directory));
   }
 } // namespace corotet

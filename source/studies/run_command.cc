@@ -9,7 +9,6 @@
 #include <corotet/base/stop_signals.h>
 #include <corotet/output/csv.h>
 #include <corotet/output/directory_lock.h>
-#include <corotet/output/history_writer.h>
 #include <corotet/output/modes_writer.h>
 #include <corotet/output/observers.h>
 #include <corotet/output/output_directory.h>
@@ -254,11 +253,12 @@ namespace corotet
         const auto observers =
           make_observers(output,
                          directory,
-                         HistoryColumns(output, simulation.body(), log),
+                         HistoryColumns(output, simulation, log),
                          comm,
                          simulation.start_time(),
                          simulation.end_time(),
-                         log);
+                         log,
+                         simulation.obstacles());
         warn_of_size(output,
                      directory,
                      simulation.body(),

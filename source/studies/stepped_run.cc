@@ -78,11 +78,12 @@ namespace corotet
     simulation.emplace(parameters.simulation, file.folder(), comm, log);
     observers = make_observers(output,
                                directory,
-                               HistoryColumns(output, simulation->body(), log),
+                               HistoryColumns(output, *simulation, log),
                                comm,
                                simulation->start_time(),
                                simulation->end_time(),
-                               log);
+                               log,
+                               simulation->obstacles());
     const OutputTimes times{output.steps_between_rows,
                             output.time_between_results};
     simulation->check(times);

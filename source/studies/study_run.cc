@@ -224,7 +224,7 @@ namespace corotet
                                                log);
     // Checks the columns and the quantities before the work starts.
     if (simulated)
-      columns.emplace(parameters.output, simulated->body(), log);
+      columns.emplace(parameters.output, *simulated, log);
     pick(simulated ? history_example(parameters.output,
                                      parameters.simulation.forces.obstacles()) :
                      frequencies());

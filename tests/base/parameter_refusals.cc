@@ -18,6 +18,12 @@ TEST(ParameterFile, RefusesFilesItCannotRead)
   EXPECT_EQ(example.refusal("a.txt", ""),
             "a.txt: a parameter file cannot end in \".txt\"; allowed are .prm, "
             ".json and .xml");
+  example.folder.write("case.prm", "");
+  EXPECT_EQ(example.refusal_of("case"),
+            "case: there is no such parameter file; do you mean 'case.prm'?");
+  example.folder.write("folder/x", "");
+  EXPECT_EQ(example.refusal_of("folder"),
+            "folder: found a folder; allowed are files .prm, .json and .xml");
   example.folder.write("folder.prm/x", "");
   EXPECT_EQ(example.refusal_of("folder.prm"),
             "folder.prm: it cannot be read as a file");

@@ -92,10 +92,14 @@ TEST(OutputDirectory, InUseIsRefused)
 {
   const ScratchFolder scratch;
   make_files(scratch.path, {"history.csv"});
+  const std::string refusal = "the output directory '" + scratch.path +
+                              "' is not empty; choose another one";
+  EXPECT_EQ(directory_refusal(scratch.path, false), refusal);
+  // Only results can be overwritten.
+  make_files(scratch.path, {".corotet"});
   EXPECT_EQ(directory_refusal(scratch.path, false),
-            "the output directory '" + scratch.path +
-              "' is not empty; choose another one, or set Output/Overwrite = "
-              "true to remove the results in it");
+            refusal + ", or set Output/Overwrite = true to remove the results "
+                      "in it");
   EXPECT_TRUE(fs::exists(scratch.path + "/history.csv"));
 }
 

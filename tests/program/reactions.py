@@ -94,6 +94,39 @@ class Reactions(ProgramTest):
             for one, two in zip(*found):
                 self.assert_close(one, two, 1e-5 * max(map(abs, one)))
 
+    def test_springs(self):
+        """A beam that is clamped at one end rests on springs at the other: forces and moments of both carry the weight of 200 N, and the springs have
+        stiffness times area times their displacement. Springs on a place where the displacement is given count with it."""
+        springs = {"Material/Type": "linear", "Supports/Elastic": "x-max: 0; 0; 1e5", "Newton/Residual tolerance": "1e-12",
+                   "Output/Reactions": "clamp: x-min, rest: x-max"}
+        for ranks in (1, 2):
+            self.run_entries({**STATIC, **springs}, ranks=ranks)
+            row = self.last_row()
+            both = [a + b for a, b in zip(vector(row, "clamp_reaction"), vector(row, "rest_reaction"))]
+            self.assert_close(both, (0, 0, 200), 1e-5)
+            self.assertGreater(vector(row, "rest_reaction")[2], 10)
+            moments = [a + b for a, b in zip(vector(row, "clamp_reaction_moment"), vector(row, "rest_reaction_moment"))]
+            # Springs act where the points have moved to, which linear elasticity leaves out.
+            self.assert_close(moments, (20, -100, 0), 1e-2)
+            self.assert_close(vector(row, "reaction"), vector(row, "clamp_reaction"), 1e-12)
+        held = {**STATIC, **springs, "Boundary conditions/Displacement": "x-max: 0; 0; 1e-3"}
+        self.run_entries(held)
+        row = self.last_row()
+        # The springs pull by 1e5 N/m^3 x 0.02 m^2 x 1e-3 m.
+        self.assertAlmostEqual(vector(row, "reaction")[2] - vector(row, "clamp_reaction")[2] - vector(row, "rest_reaction")[2], 2, delta=1e-6)
+
+    def test_dashpots(self):
+        """A body that slides freely is stopped by dashpots alone: their impulse is its momentum."""
+        sliding = {**BEAM, "Boundary conditions/Fixed": "", "Initial conditions/Velocity": "1; 0; 0", "Supports/Dashpots": "x-min: 1e3; 0; 0",
+                   "Time integration/Type": "implicit midpoint", "Time integration/End time": "0.1", "Time integration/Time step": "0.005",
+                   "Output/Reactions": "stop: x-min", "Newton/Residual tolerance": "1e-12"}
+        self.run_entries(sliding)
+        rows = read_history(self.folder / "out")
+        impulse = sum(0.005 * vector(row, "stop_reaction")[0] for row in rows[1:])
+        self.assertLess(impulse, -1)
+        # Each step is solved to 1e-12 of its forces.
+        self.assertAlmostEqual(impulse, vector(rows[-1], "momentum")[0] - vector(rows[0], "momentum")[0], delta=1e-8)
+
     def test_restart(self):
         """A restarted run has the same columns to the last digit, and a change
         of Output/Reactions is refused."""
@@ -123,7 +156,7 @@ class Reactions(ProgramTest):
                 ("x-min", "found 'x-min'; allowed: a list of NAME: PLACE, separated by commas, each place as in Boundary conditions/Fixed"),
                 ("a: x-min, a: x-min", "two supports are called 'a'; each name must be used once"),
                 ("1: x-min", "'1' cannot be a support's name; letters, digits and _ are allowed, no digit first"),
-                ("a: x-max", "nothing is fixed or prescribed at 'x-max'; allowed are places where the displacement is given"),
+                ("a: x-max", "nothing is fixed or prescribed at 'x-max', and it has no springs or dashpots; allowed are places with one of these"),
                 ("a: x-min & x-max", "boundaries have no node in common: found 'x-max & x-min'; allowed are those that meet in an edge or a corner")):
             with self.subTest(reactions):
                 run = self.run_entries({**STATIC, "Output/Reactions": reactions}, "--validate", status=1)

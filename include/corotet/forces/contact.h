@@ -4,87 +4,18 @@
 #ifndef corotet_forces_contact_h
 #define corotet_forces_contact_h
 
-#include <corotet/forces/force_kind.h>
+#include <corotet/forces/contact_surface.h>
+#include <corotet/forces/nearby_faces.h>
 #include <corotet/forces/obstacle.h>
 #include <corotet/operators/surface_matrix.h>
 
 #include <limits>
 #include <memory>
-#include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace corotet
 {
-  /**
-   * The surface of a body, as contact needs it: its faces and what their
-   * quadrature points weigh.
-   */
-  class ContactSurface
-  {
-  public:
-    struct Face
-    {
-      /// A local cell, perhaps a ghost.
-      unsigned int cell;
-      unsigned int face;
-      /// Young's modulus of the cell [Pa].
-      double youngs_modulus;
-      /// The size of the face, or the height of the cell above it if that is
-      /// larger [m].
-      double size;
-    };
-
-    /// Faces of one boundary in the order of SurfaceMatrix.
-    struct Boundary
-    {
-      unsigned int id;
-      std::size_t  first;
-      std::size_t  n_faces;
-    };
-
-    /// The boundaries with the ids @p touching; all of the surface if there are
-    /// none. @p context must outlive this object, but for its log.
-    ContactSurface(const ForceContext           &context,
-                   const std::set<unsigned int> &touching);
-
-    /// Areas of the points at rest [m^2], [face][point].
-    double
-    area(const std::size_t face, const unsigned int point) const
-    {
-      return areas[n_points * face + point];
-    }
-
-    /// The default stiffness of contact per area [N/m^3], 10 E / h with the
-    /// size h of the face. Where the body has a thickness t below h / 3, it
-    /// bends and is softer by the third power of t / h: then the stiffness is
-    /// less by (3 t / h)^3, as contact that is far stiffer than the body closes
-    /// and opens at single points, and Newton's method follows.
-    double
-    stiffness(const Face &face) const;
-
-    /// The smallest and the largest of these stiffnesses on all ranks [N/m^3].
-    /// Collective.
-    std::pair<double, double>
-    range_of_stiffness() const;
-
-    const Discretization   &discretization;
-    const ReferenceElement &reference;
-    const unsigned int      n_points;
-    std::vector<Face>       faces;
-    std::vector<Boundary>   boundaries;
-
-  private:
-    void
-    add(const BoundaryFace &face, const Elasticity &elasticity);
-
-    std::vector<double> areas;
-    /// Twice the volume of the body over the area of its surface [m]: the
-    /// thickness of a plate, and a third of that of a cube.
-    double thickness;
-  };
-
   /**
    * Forces of an obstacle on the points of the surface that are inside of it.
    */
@@ -107,6 +38,12 @@ namespace corotet
     obstacle() const override
     {
       return the_obstacle->name();
+    }
+
+    std::shared_ptr<const Obstacle>
+    obstacle_shape() const override
+    {
+      return the_obstacle;
     }
 
     /// The stiffness per area that was given [N/m^3]; 0 for the default.
@@ -136,6 +73,7 @@ namespace corotet
       : surface(surface)
       , the_obstacle(obstacle)
       , stiffness(stiffness)
+      , nearby(*surface, *obstacle)
     {}
 
     /// A point of the surface that is inside of the obstacle.
@@ -161,7 +99,7 @@ namespace corotet
     double
     stiffness_of(const ContactSurface::Face &face) const
     {
-      return stiffness > 0 ? stiffness : surface->stiffness(face);
+      return stiffness > 0 ? stiffness : face.stiffness;
     }
 
     /// Adds @p force at a point to @p f.
@@ -184,6 +122,9 @@ namespace corotet
     const std::shared_ptr<const ContactSurface> surface;
     const std::shared_ptr<const Obstacle>       the_obstacle;
     const double                                stiffness;
+
+  private:
+    mutable NearbyFaces nearby;
   };
 
   /**

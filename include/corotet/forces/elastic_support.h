@@ -41,6 +41,12 @@ namespace corotet
       return value.depends_on_time();
     }
 
+    unsigned int
+    boundary_id() const
+    {
+      return boundary;
+    }
+
     /// Whether the coefficient is zero always and everywhere.
     bool
     is_zero() const
@@ -96,6 +102,12 @@ namespace corotet
 
     void
     add_force(Vector &f, const Motion &motion) const override;
+
+    std::optional<unsigned int>
+    ground_boundary() const override
+    {
+      return coefficient.boundary_id();
+    }
 
     bool
     has_surface_matrix() const override

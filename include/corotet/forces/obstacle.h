@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,6 +40,13 @@ namespace corotet
       /// The gradient of the distance, of length one: the outward normal of the
       /// surface.
       dealii::Tensor<1, 3> normal;
+    };
+
+    /// Triangles, without the obstacle's motion.
+    struct Surface
+    {
+      std::vector<dealii::Point<3>>            points;
+      std::vector<std::array<unsigned int, 3>> triangles;
     };
 
     /// Throws InputError that blames @p entry if @p shape is none.
@@ -78,6 +86,18 @@ namespace corotet
     double
     size() const;
 
+    /// Whether the body is inside of the shape ("not").
+    bool
+    is_hollow() const
+    {
+      return hollow;
+    }
+
+    /// Its surface; of planes a square around the point nearest to @p middle,
+    /// whose sides have twice the length @p half [m].
+    Surface
+    surface(const dealii::Point<3> &middle, const double half) const;
+
     /// The gap of a point, the obstacle being where it is without motion.
     Gap
     gap(const dealii::Point<3> &x) const;
@@ -96,7 +116,7 @@ namespace corotet
 
     std::string         the_name;
     Kind                kind;
-    bool                is_hollow = false;
+    bool                hollow = false;
     std::vector<double> numbers;
     /// The normal of a plane, or the direction of a cylinder's axis.
     dealii::Tensor<1, 3>      direction;

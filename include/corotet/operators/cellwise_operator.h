@@ -116,8 +116,8 @@ namespace corotet
     const VectorType *lumped_mass = nullptr;
 
     const SurfaceOperator<T> *surface = nullptr;
-    /// The product of the surface's matrix and the source; zero at other
-    /// entries.
+    /// The product of the surface's matrix and the source during an
+    /// application, else zero.
     mutable VectorType surface_product;
   };
 } // namespace corotet

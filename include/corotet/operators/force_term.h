@@ -6,11 +6,14 @@
 
 #include <corotet/base/vector.h>
 
+#include <memory>
+#include <optional>
 #include <string>
 
 namespace corotet
 {
   class ForceRoundOff;
+  class Obstacle;
   class SurfaceMatrix;
 
   /**
@@ -26,6 +29,17 @@ namespace corotet
     /// velocity.
     const Vector &u;
     const Vector &v;
+  };
+
+  /**
+   * The force [N] of the ground on a boundary of the body, and its moment about
+   * the origin, with current positions [N m].
+   */
+  struct GroundForce
+  {
+    unsigned int         boundary;
+    dealii::Tensor<1, 3> force;
+    dealii::Tensor<1, 3> moment;
   };
 
   /**
@@ -171,6 +185,21 @@ namespace corotet
     obstacle() const
     {
       return "";
+    }
+
+    /// This obstacle, to be drawn; none for other forces.
+    virtual std::shared_ptr<const Obstacle>
+    obstacle_shape() const
+    {
+      return nullptr;
+    }
+
+    /// The boundary on which the ground acts on the body by this force, for
+    /// reactions; none for forces that are no support.
+    virtual std::optional<unsigned int>
+    ground_boundary() const
+    {
+      return {};
     }
 
     /// The greatest depth of the body inside of the obstacle [m]; less than

@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <memory>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -148,6 +149,19 @@ namespace corotet
     /// The names of all obstacles, without repetition.
     std::vector<std::string>
     obstacles() const;
+
+    /// The obstacles, without repetition.
+    std::vector<std::shared_ptr<const Obstacle>>
+    obstacle_shapes() const;
+
+    /// The boundaries on which the ground acts by force terms: springs and
+    /// dashpots.
+    std::set<unsigned int>
+    ground_boundaries() const;
+
+    /// What the ground does on each of them. Collective.
+    std::vector<GroundForce>
+    ground_forces(const Motion &motion) const;
 
     /// The name of each obstacle, and its force on the body [N].
     std::vector<std::pair<std::string, dealii::Tensor<1, 3>>>

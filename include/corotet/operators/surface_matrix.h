@@ -54,15 +54,14 @@ namespace corotet
     void
     add(const unsigned int boundary, const Function &per_area);
 
-    /// The D_q of the faces of a boundary, [face][point]: first own faces, then
-    /// those of ghost cells, both in the order of the discretization. Valid
-    /// until another boundary is added.
+    /// The number in faces() of a boundary's first face. First come own faces,
+    /// then those of ghost cells, both in the order of the discretization.
+    unsigned int
+    first_face(const unsigned int boundary);
+
+    /// The D_q of a face, to be added to. Valid until a boundary is added.
     Tensor *
-    tensors_of(const unsigned int boundary)
-    {
-      const std::size_t first = first_face(boundary);
-      return all_tensors.data() + points_per_face() * first;
-    }
+    tensors_of(const unsigned int face);
 
     /// Adds @p factor times another matrix.
     void
@@ -79,6 +78,11 @@ namespace corotet
     {
       return reference.face_rules[0].weights.size();
     }
+
+    /// Faces whose D may be other than zero, by their numbers in faces(),
+    /// ascending.
+    std::vector<unsigned int>
+    used_faces() const;
 
     /// D_q [N/m], [face][point].
     const std::vector<Tensor> &
@@ -111,14 +115,13 @@ namespace corotet
     }
 
   private:
-    /// The first of a boundary's faces, which are added if they are missing.
-    unsigned int
-    first_face(const unsigned int boundary);
-
     const Discretization   &disc;
     const ReferenceElement &reference;
     std::vector<Face>       all_faces;
     std::vector<Tensor>     all_tensors;
+    /// The faces whose D may be other than zero, and a mark for each of them.
+    std::vector<unsigned int>  used;
+    std::vector<unsigned char> is_used;
     /// For each boundary its first face and the number of its faces.
     std::map<unsigned int, std::pair<unsigned int, unsigned int>> ranges;
   };
@@ -127,16 +130,18 @@ namespace corotet
   void
   SurfaceMatrix::add(const unsigned int boundary, const Function &per_area)
   {
-    std::size_t at =
-      static_cast<std::size_t>(points_per_face()) * first_face(boundary);
+    unsigned int f = first_face(boundary);
     for (const auto *faces :
          {&disc.boundary_faces(), &disc.ghost_boundary_faces()})
       for (const BoundaryFace &face : *faces)
         if (face.boundary == boundary)
-          for_each_surface_point(
-            disc, reference, face, nullptr, [&](const SurfacePoint &point) {
-              all_tensors[at++] += point.area.norm() * per_area(point);
-            });
+          {
+            Tensor *const D = tensors_of(f++);
+            for_each_surface_point(
+              disc, reference, face, nullptr, [&](const SurfacePoint &point) {
+                D[point.index] += point.area.norm() * per_area(point);
+              });
+          }
   }
 
   /**
@@ -205,6 +210,9 @@ namespace corotet
 
     void
     find_nodes(const SurfaceMatrix &matrix);
+    /// Finds the rows of the active faces.
+    void
+    find_rows();
 
     const Nodes            &nodes;
     const ReferenceElement &reference;
@@ -215,14 +223,16 @@ namespace corotet
     std::vector<SurfaceMatrix::Face>   faces;
     /// Local numbers of the faces' nodes, [face][k].
     std::vector<unsigned int> face_nodes;
-    std::vector<Tensor>       tensors;
-    /// The faces that have a tensor other than zero.
+    /// The faces that have a tensor other than zero, and these, [face][point],
+    /// which have no meaning for other faces.
     std::vector<unsigned int> active_faces;
+    std::vector<Tensor>       tensors;
 
-    std::vector<unsigned int>          rows;
-    std::vector<SurfaceMatrix::Tensor> blocks;
-    /// Place of the node in rows, [face][k]; meaningless for nodes that are not
-    /// owned.
+    /// The owned nodes of active faces, and S_ii there.
+    std::vector<unsigned int> rows;
+    std::vector<Tensor>       blocks;
+    /// Place of the node in rows, [active face][k]; meaningless for nodes that
+    /// are not owned.
     std::vector<unsigned int> places;
   };
 

@@ -8,6 +8,7 @@
 #include <corotet/output/stress_probes.h>
 #include <corotet/output/support_reactions.h>
 #include <corotet/simulation/observer.h>
+#include <corotet/simulation/simulation.h>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -49,7 +50,7 @@ namespace corotet
     /// Has all columns that @p parameters ask for.
     /// Throws InputError. Collective.
     HistoryColumns(const OutputParameters &parameters,
-                   const Body             &body,
+                   const Simulation       &simulation,
                    Log                    &log);
 
     /// The row of a state. Collective.

@@ -7,6 +7,7 @@
 #include <corotet/output/output_parameters.h>
 #include <corotet/simulation/body.h>
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,8 @@ namespace corotet
 {
   /**
    * The forces and moments that single supports exert on the body: sums over
-   * the prescribed unknowns at their nodes.
+   * the prescribed unknowns at their nodes, and over springs and dashpots on
+   * their boundaries.
    */
   class SupportReactions
   {
@@ -30,9 +32,11 @@ namespace corotet
     SupportReactions() = default;
 
     /// Throws InputError, blamed on Output/Reactions, for unknown names and for
-    /// supports where nothing is prescribed. Collective.
+    /// supports where nothing is prescribed and that are none of the @p
+    /// ground_boundaries, on which springs and dashpots act. Collective.
     SupportReactions(const std::vector<NamedSupport> &supports,
-                     const Body                      &body);
+                     const Body                      &body,
+                     const std::set<unsigned int>    &ground_boundaries);
 
     const std::vector<std::string> &
     names() const
@@ -57,6 +61,8 @@ namespace corotet
 
     std::vector<std::string> support_names;
     std::vector<Entry>       entries;
+    /// The boundaries of each support on which springs and dashpots act.
+    std::vector<std::set<unsigned int>> boundaries;
   };
 } // namespace corotet
 

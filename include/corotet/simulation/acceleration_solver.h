@@ -70,12 +70,18 @@ namespace corotet
     const MassSolver &
     mass_solver();
     /// Solves with a lumped mass, without damping on the surface; @p c is the
-    /// factor of the mass that damping by mass adds.
-    void
+    /// factor of the mass that damping by mass adds. Returns the forces.
+    EquationOfMotion::Forces &
     solve_lumped(State       &state,
                  const double time,
                  const double velocity_factor,
                  const double c);
+    /// The same with damping on the surface. Returns the number of iterations.
+    unsigned int
+    solve_lumped_with_surface_damping(State       &state,
+                                      const double time,
+                                      const double velocity_factor,
+                                      const double c);
     /// @p factor times the matrix of damping on the surface.
     const SurfaceOperator<double> &
     surface_damping(const double time, const double factor);

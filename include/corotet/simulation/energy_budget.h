@@ -127,7 +127,7 @@ namespace corotet
       /// elastic forces on prescribed ones, with those of force terms.
       Vector external;
       /// Damping forces on all unknowns, and the part of friction; the latter
-      /// is empty if there is none.
+      /// is empty if there is none, or nothing else.
       Vector damping, friction;
       /// The displacement at the end of the step.
       Vector displacement;
@@ -150,9 +150,6 @@ namespace corotet
     /// Collective.
     void
     find_balance(StepRecord &record, const Motion &motion) const;
-    /// Finds the friction of the last evaluation. Collective.
-    void
-    find_friction();
     /// Finds the kinetic energies of this rank, and the momentum of each node.
     void
     find_kinetic_energy(StepRecord &record, const State &state);
@@ -170,15 +167,17 @@ namespace corotet
     /// M v; empty in statics.
     Vector momentum;
     double work = 0;
-    /// Energy of elastic terms that depend on time, at the start [J].
+    /// Where the account begins, the kinetic and elastic energy, and that of
+    /// elastic terms that depend on time [J].
+    double initial_energy          = 0;
     double initial_changing_energy = 0;
-    /// Whether the account began, and whether its next step begins, at rest
-    /// with the forces that act there instead of the guess.
-    bool   began_unloaded = false;
-    bool   is_unloaded    = false;
-    double dissipation    = 0;
-    double friction_work  = 0;
-    /// Friction of the last evaluation; empty if there is none.
+    /// Whether the next step of the account begins at rest, with the forces
+    /// that act there, instead of at the guess.
+    bool   is_unloaded   = false;
+    double dissipation   = 0;
+    double friction_work = 0;
+    /// Friction of the last evaluation; empty if there is none, or no other
+    /// damping.
     Vector     friction;
     double     energy_of_supports = 0;
     StepRecord initial;

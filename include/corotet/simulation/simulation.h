@@ -12,6 +12,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -52,6 +53,20 @@ namespace corotet
     velocity() const
     {
       return system.equation().velocity();
+    }
+
+    /// The obstacles that the body may touch.
+    std::vector<std::shared_ptr<const Obstacle>>
+    obstacles() const
+    {
+      return system.equation().terms.obstacle_shapes();
+    }
+
+    /// The boundaries on which springs and dashpots act.
+    std::set<unsigned int>
+    ground_boundaries() const
+    {
+      return system.equation().terms.ground_boundaries();
     }
 
     double

@@ -5,6 +5,7 @@
 #define corotet_simulation_step_record_h
 
 #include <corotet/base/archive.h>
+#include <corotet/operators/force_term.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -78,10 +79,17 @@ namespace corotet
     double friction_work = 0;
     /// The names of obstacles, and their forces on the body [N].
     std::vector<std::pair<std::string, dealii::Tensor<1, 3>>> contact_forces;
+    /// What springs and dashpots do, by boundary.
+    std::vector<GroundForce> ground_forces;
 
-    /// Transfers all but what obstacles do.
     void
     transfer(Archive &archive);
+
+  private:
+    void
+    transfer_contact_forces(Archive &archive);
+    void
+    transfer_ground_forces(Archive &archive);
   };
 } // namespace corotet
 

@@ -39,8 +39,9 @@ namespace corotet
     solve(Vector &a, const Vector &r) const;
 
     /**
-     * Solves (@p c_M M + S) a = r by conjugate gradients; if the mass is
-     * lumped, only for the nodes on which @p S acts.
+     * Solves (@p c_M M + S) a = r by conjugate gradients. If the mass is
+     * lumped, only the entries of the nodes on which @p S acts are read and
+     * written.
      */
     unsigned int
     solve(Vector                        &a,

@@ -27,7 +27,8 @@ const CONTROLS = {
       byId('clip-flip').setAttribute('aria-pressed', byId('clip-flip').getAttribute('aria-pressed') !== 'true');
       this.showClip();
     });
-    for (const [id, object] of [['outline', this.view.outline], ['edges', this.view.edges]]) {
+    byId('obstacles-label').hidden = this.view.obstacles.children.length === 0;
+    for (const [id, object] of [['outline', this.view.outline], ['edges', this.view.edges], ['obstacles', this.view.obstacles]]) {
       byId(id).addEventListener('change', () => { object.visible = byId(id).checked; this.view.draw(); });
     }
     // The edges of a thinned surface are not the edges of cells, so they are not offered.

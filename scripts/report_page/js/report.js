@@ -40,7 +40,7 @@ class Report {
     this.states[last] = await readState(view, last);
     this.options = optionsOf(view, this.surface.regions);
     this.option = this.options.find((one) => one.name === (this.isModes ? 'displacement' : 'von_mises')) || this.options[0];
-    this.view = new View(byId('canvas'), this.surface, (place) => this.keep(this.view.pick(place)));
+    this.view = new View(byId('canvas'), this.surface, view.obstacles, (place) => this.keep(this.view.pick(place)));
     this.view.onCamera = () => showAxes(byId('axes'), this.view.orbit.axes());
     this.kept = new Kept(byId('kept'), this.surface, this.description, (x) => this.goToTime(x));
     this.phase = Math.PI / 2;
@@ -76,7 +76,8 @@ class Report {
 
   firstWarp() {
     const largest = this.fullRange('displacement')[1];
-    return largest === 0 || (!this.isModes && largest >= SEEN_AS_IT_IS * this.size()) ? 1 : roundDown(0.1 * this.size() / largest);
+    const { obstacles } = this.description.view;
+    return largest === 0 || obstacles.length > 0 || (!this.isModes && largest >= SEEN_AS_IT_IS * this.size()) ? 1 : roundDown(0.1 * this.size() / largest);
   }
 
   /** The corners of a box that contains the body at rest and, with displacements multiplied by the warp, in all states that have been read (of modes: in
@@ -110,6 +111,7 @@ class Report {
     this.surface.displace(state, this.warp * (this.isModes ? Math.sin(this.phase) : 1));
     this.values = this.surface.valuesOf(this.option, state);
     this.showColours();
+    this.view.placeObstacles(this.state);
     this.view.update();
     this.showTime();
     this.showPoint();

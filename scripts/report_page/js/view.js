@@ -5,7 +5,7 @@
 
 class View {
   /** Throws if the browser has no WebGL. */
-  constructor(canvas, surface, clicked) {
+  constructor(canvas, surface, obstacles, clicked) {
     Object.assign(this, { canvas, surface });
     this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true, stencil: true });
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio || 1, 2));
@@ -21,6 +21,7 @@ class View {
     this.makeBody();
     this.makeLines();
     this.makeCap();
+    this.makeObstacles(obstacles);
     this.onCamera = () => {};
     this.orbit = new Orbit(canvas, this.camera, () => { this.onCamera(); this.draw(); }, clicked);
     new ResizeObserver(() => this.resize()).observe(canvas.parentElement);
@@ -98,6 +99,30 @@ class View {
     this.scene.add(this.clipped, this.cap);
   }
 
+  /** Makes the obstacles, each of {points, triangles, isHollow, moves}. One looks through those that the body is inside of. */
+  makeObstacles(obstacles) {
+    this.obstacles = new THREE.Group();
+    for (const { points, triangles, isHollow, moves } of obstacles) {
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(points.flat()), 3));
+      geometry.setIndex(triangles.flat());
+      const material = new THREE.MeshPhongMaterial({ side: THREE.DoubleSide, flatShading: true, specular: 0x000000, transparent: isHollow,
+        opacity: isHollow ? 0.2 : 1, depthWrite: !isHollow });
+      const made = new THREE.Mesh(geometry, material);
+      made.frustumCulled = false;
+      // Transparent ones are drawn after all others.
+      made.renderOrder = isHollow ? 8 : 4;
+      made.moves = moves;
+      this.obstacles.add(made);
+    }
+    this.scene.add(this.obstacles);
+  }
+
+  /** Moves the obstacles to where they are in a state of the page. */
+  placeObstacles(state) {
+    for (const obstacle of this.obstacles.children) obstacle.position.fromArray(obstacle.moves[state]);
+  }
+
   /** Cuts away the part of the body with larger coordinates than @p place along the axis (0, 1, 2), or with smaller ones if flipped. If the axis is null,
    * nothing is cut away. */
   clip(axis, place, flipped) {
@@ -147,6 +172,7 @@ class View {
     this.outline.material.color.set(themeColour('at-rest'));
     this.cap.material.color.set(themeColour('body'));
     this.marker.material.color.set(themeColour('bad'));
+    for (const obstacle of this.obstacles.children) obstacle.material.color.set(themeColour('obstacle'));
     this.draw();
   }
 
