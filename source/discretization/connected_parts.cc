@@ -163,6 +163,18 @@ namespace corotet
       joints.push_back({node, part_of_node[node], part});
   }
 
+  std::pair<std::vector<unsigned int>, unsigned int>
+  ConnectedParts::bodies(const MPI_Comm comm) const
+  {
+    Pairs pairs;
+    for (const Joint &joint : joints)
+      pairs.insert({joint.part, joint.other});
+    DisjointSets sets(n_parts);
+    for (const auto &[a, b] : of_all_ranks(pairs, comm))
+      sets.unite(a, b);
+    return sets.numbers();
+  }
+
   std::vector<unsigned int>
   ConnectedParts::colours(const MPI_Comm comm) const
   {

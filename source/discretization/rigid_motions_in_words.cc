@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
-#include <corotet/base/disjoint_sets.h>
 #include <corotet/base/text.h>
 #include <corotet/discretization/rigid_motions.h>
 
@@ -219,14 +218,8 @@ namespace corotet
   unconnected_parts(const Discretization &discretization,
                     const ConnectedParts &parts)
   {
-    std::set<std::pair<unsigned int, unsigned int>> pairs;
-    for (const auto &joint : parts.joints)
-      pairs.insert({joint.part, joint.other});
-    DisjointSets sets(parts.n_parts);
-    for (const auto &[a, b] :
-         of_all_ranks(pairs, discretization.communicator()))
-      sets.unite(a, b);
-    const auto [numbers, n_bodies] = sets.numbers();
+    const auto [numbers, n_bodies] =
+      parts.bodies(discretization.communicator());
     if (n_bodies == 1)
       return "";
     // Names the first part of each body, in the order of places.

@@ -139,36 +139,6 @@ namespace corotet
       sum_of_nodal_masses);
   }
 
-  double
-  Body::size_of_motion(const Vector &u, const bool has_springs) const
-  {
-    using namespace dealii::Utilities;
-    // Displacements are known to the tolerances of solvers, relative to the
-    // largest ones.
-    constexpr double least_share = 1e-4;
-    const double     size        = root_mean_square(u);
-    if (!has_supports)
-      has_supports =
-        MPI::max(motion.unknowns().size(), discretization.communicator()) > 0;
-    if (has_springs || *has_supports)
-      return size;
-    const Vector         &diagonal = mass.diagonal();
-    std::array<double, 3> mean{};
-    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-      mean[i % 3] += diagonal.local_element(i) * u.local_element(i);
-    sum_over_ranks(mean, discretization.communicator());
-    double sum = 0;
-    for (unsigned int i = 0; i < u.locally_owned_size(); ++i)
-      {
-        const double difference =
-          u.local_element(i) - mean[i % 3] / sum_of_nodal_masses;
-        sum += diagonal.local_element(i) * difference * difference;
-      }
-    return std::max(std::sqrt(MPI::sum(sum, discretization.communicator()) /
-                              sum_of_nodal_masses),
-                    least_share * size);
-  }
-
   void
   Body::describe(Log &log) const
   {

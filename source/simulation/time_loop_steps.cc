@@ -146,6 +146,20 @@ namespace corotet
                          error.what()));
   }
 
+  double
+  TimeLoop::size_of_motion()
+  {
+    if (!the_size_of_motion)
+      {
+        const auto springs =
+          system.equation().terms.springs(body.reference,
+                                          parameters.start_time);
+        the_size_of_motion =
+          std::make_unique<const SizeOfMotion>(body, springs.get());
+      }
+    return (*the_size_of_motion)(present.u);
+  }
+
   void
   TimeLoop::advance_adaptively(StepRecord &record)
   {
@@ -171,10 +185,7 @@ namespace corotet
             acceleration_change -= good_state.a;
             const double error = integrator->error_constant() * dt * dt *
                                  body.root_mean_square(acceleration_change);
-            const double size =
-              body.size_of_motion(present.u,
-                                  system.equation().terms.has_springs());
-            if (adaptive->accept(dt, error, size))
+            if (adaptive->accept(dt, error, size_of_motion()))
               {
                 finish_step(done, to, record);
                 record.rejected_steps = adaptive->n_rejected();

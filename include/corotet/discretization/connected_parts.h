@@ -48,6 +48,11 @@ namespace corotet
     /// The regions of each part's cells.
     std::vector<std::set<unsigned int>> regions;
 
+    /// The number of the body that each part belongs to, and how many bodies
+    /// there are: parts with common nodes are one. Collective.
+    std::pair<std::vector<unsigned int>, unsigned int>
+    bodies(const MPI_Comm comm) const;
+
     /// A small number for each part, the same on all ranks, such that parts
     /// with a node in common have different ones. Collective.
     std::vector<unsigned int>

@@ -22,7 +22,6 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 namespace corotet
@@ -71,13 +70,6 @@ namespace corotet
     double
     root_mean_square(const Vector &field) const;
 
-    /// The size of a displacement [m] that errors of @p u are compared with:
-    /// its root mean square, without the translation if nothing holds the body,
-    /// neither supports nor springs, as that makes no difference to the motion.
-    /// Collective.
-    double
-    size_of_motion(const Vector &u, const bool has_springs) const;
-
     /// An object for the stress of displacements by the body's law.
     StressField
     stress_field() const
@@ -123,8 +115,6 @@ namespace corotet
     /// The sum of the nodal masses [kg]; with a consistent mass it is not the
     /// mass of the body. Zero before it is needed.
     mutable double sum_of_nodal_masses = 0;
-    /// Whether a displacement is prescribed somewhere, once that is known.
-    mutable std::optional<bool> has_supports;
   };
 } // namespace corotet
 

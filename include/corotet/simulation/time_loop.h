@@ -7,6 +7,7 @@
 #include <corotet/base/log.h>
 #include <corotet/simulation/adaptive_step.h>
 #include <corotet/simulation/energy_budget.h>
+#include <corotet/simulation/size_of_motion.h>
 #include <corotet/simulation/structural_system.h>
 
 #include <functional>
@@ -263,6 +264,9 @@ namespace corotet
     /// Makes a step as long as its error allows.
     void
     advance_adaptively(StepRecord &record);
+    /// SizeOfMotion of the present displacement.
+    double
+    size_of_motion();
     /// Solves for the acceleration that the run starts from: that at the start;
     /// with stiff damping the mean one of the first step, or of a part of it
     /// where that fails. Methods that keep energy always start from the former:
@@ -353,8 +357,9 @@ namespace corotet
     /// Length of the equal steps, or the stable one [s].
     double step_length = 0;
     /// Null if the length of steps does not follow their error.
-    std::unique_ptr<AdaptiveStep> adaptive;
-    Vector                        acceleration_change;
+    std::unique_ptr<AdaptiveStep>       adaptive;
+    std::unique_ptr<const SizeOfMotion> the_size_of_motion;
+    Vector                              acceleration_change;
 
     /// The record of the last step, if it was not to be recorded and next() was
     /// interrupted.
