@@ -36,7 +36,7 @@ namespace corotet
     const Tensor<1, 3>       moved = the_obstacle->displacement(motion.time);
     std::array<Point<3>, 10> x;
     AssertIndexRange(n_nodes, x.size() + 1);
-    for (const std::size_t f : nearby.find(motion.u, moved))
+    for (const std::size_t f : nearby->find(motion.u, moved))
       {
         const ContactSurface::Face &face = surface->faces[f];
         if (!with_ghosts && face.cell >= discretization.n_owned_cells())

@@ -234,13 +234,15 @@ namespace corotet
                                        "friction; allowed: a velocity above "
                                        "zero, well below those of sliding",
                                        name));
-        auto contact = std::make_unique<NormalContact>(surface, obstacle, k);
+        const auto nearby = std::make_shared<NearbyFaces>(*surface, *obstacle);
+        auto       contact =
+          std::make_unique<NormalContact>(surface, obstacle, nearby, k);
         describe(*contact, context, low, top);
         terms.add(std::move(contact));
         if (mu > 0)
-          terms.add(
-            std::make_unique<Friction>(surface, obstacle, k, mu, slip_velocity),
-            friction_entry + " of obstacle '" + name + "'");
+          terms.add(std::make_unique<Friction>(
+                      surface, obstacle, nearby, k, mu, slip_velocity),
+                    friction_entry + " of obstacle '" + name + "'");
       }
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Copyright (C) 2026 by the corotet authors
 
+#include <corotet/base/vector_at.h>
 #include <corotet/forces/nearby_faces.h>
 
 #include <algorithm>
@@ -17,14 +18,6 @@ namespace corotet
     // Points of a face of any degree are less than this many times as far from
     // its first node as the farthest node.
     constexpr double reach_of_face = 3;
-
-    Tensor<1, 3>
-    value_at_node(const Vector &u, const unsigned int node)
-    {
-      return Tensor<1, 3>({u.local_element(3 * node),
-                           u.local_element(3 * node + 1),
-                           u.local_element(3 * node + 2)});
-    }
   } // namespace
 
   NearbyFaces::NearbyFaces(const ContactSurface &surface,
@@ -41,10 +34,16 @@ namespace corotet
   double
   NearbyFaces::motion_since(const Vector &u, const Tensor<1, 3> &moved) const
   {
+    // Also after values that are not numbers, as rejected steps may have them,
+    // there is another search.
     double square = 0;
     for (std::size_t i = 0; i < last_u.size(); ++i)
-      square = std::max(
-        square, (value_at_node(u, surface.nodes[i]) - last_u[i]).norm_square());
+      {
+        const double of_node =
+          (vector_at(u, surface.nodes[i]) - last_u[i]).norm_square();
+        if (of_node > square || std::isnan(of_node))
+          square = of_node;
+      }
     return std::sqrt(square) + (moved - last_moved).norm();
   }
 
@@ -56,12 +55,16 @@ namespace corotet
     const unsigned int *face_nodes = surface.nodes_of(face);
     const auto          place      = [&](const unsigned int k) {
       return surface.discretization.node_position(face_nodes[k]) +
-             value_at_node(u, face_nodes[k]);
+             vector_at(u, face_nodes[k]);
     };
     const Point<3> first  = place(0);
     double         square = 0;
     for (unsigned int k = 1; k < surface.nodes_per_face(); ++k)
-      square = std::max(square, (place(k) - first).norm_square());
+      {
+        const double of_node = (place(k) - first).norm_square();
+        if (of_node > square || std::isnan(of_node))
+          square = of_node;
+      }
     // When nodes move by d, the face comes nearer by d and grows by 2 d.
     return (obstacle.gap(first - moved).distance -
             reach_of_face * std::sqrt(square)) /
@@ -72,7 +75,7 @@ namespace corotet
   NearbyFaces::search(const Vector &u, const Tensor<1, 3> &moved)
   {
     for (std::size_t i = 0; i < last_u.size(); ++i)
-      last_u[i] = value_at_node(u, surface.nodes[i]);
+      last_u[i] = vector_at(u, surface.nodes[i]);
     last_moved   = moved;
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t f = 0; f < slacks.size(); ++f)

@@ -3,6 +3,8 @@
 
 // Terms that act on the surface: matrices of springs and dashpots, and contact.
 
+#include <corotet/base/joint_reduction.h>
+#include <corotet/base/vector_at.h>
 #include <corotet/operators/force_terms.h>
 #include <corotet/operators/surface_matrix.h>
 
@@ -163,23 +165,24 @@ namespace corotet
           if (term->ground_boundary() == boundary)
             term->add_force(f, motion);
         f.compress(dealii::VectorOperation::add);
-        dealii::Tensor<1, 3> force, moment;
+        GroundForce ground{boundary, {}, {}};
         for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
           {
-            dealii::Tensor<1, 3> at_node, x = discretization.node_position(n);
-            for (unsigned int a = 0; a < 3; ++a)
-              {
-                at_node[a] = f.local_element(3 * n + a);
-                x[a] += motion.u.local_element(3 * n + a);
-              }
-            force += at_node;
-            moment += cross_product_3d(x, at_node);
+            const dealii::Tensor<1, 3> force = vector_at(f, n);
+            ground.force += force;
+            ground.moment += cross_product_3d(discretization.node_position(n) +
+                                                vector_at(motion.u, n),
+                                              force);
           }
-        const MPI_Comm comm = discretization.communicator();
-        result.push_back({boundary,
-                          dealii::Utilities::MPI::sum(force, comm),
-                          dealii::Utilities::MPI::sum(moment, comm)});
+        result.push_back(ground);
       }
+    JointReduction reduction;
+    for (GroundForce &ground : result)
+      {
+        reduction.sum(ground.force);
+        reduction.sum(ground.moment);
+      }
+    reduction.run(discretization.communicator());
     return result;
   }
 

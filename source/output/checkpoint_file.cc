@@ -31,7 +31,7 @@ namespace corotet
     using Json = nlohmann::ordered_json;
 
     // The version of the content of checkpoints and its meaning.
-    constexpr int format_version = 9;
+    constexpr int format_version = 10;
 
     class FileDescriptor
     {

@@ -5,43 +5,10 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
-#include <limits>
-
 namespace corotet
 {
   using dealii::Point;
   using dealii::Tensor;
-
-  namespace
-  {
-    // The middle of the box around the body at rest, and the length of its
-    // diagonal. Collective.
-    std::pair<Point<3>, double>
-    extent(const Discretization &discretization)
-    {
-      constexpr double    infinity = std::numeric_limits<double>::infinity();
-      std::vector<double> limits(6, -infinity);
-      for (unsigned int n = 0; n < discretization.n_owned_nodes(); ++n)
-        for (unsigned int a = 0; a < 3; ++a)
-          {
-            const double x = discretization.node_position(n)[a];
-            limits[a]      = std::max(limits[a], x);
-            limits[3 + a]  = std::max(limits[3 + a], -x);
-          }
-      dealii::Utilities::MPI::max(limits,
-                                  discretization.communicator(),
-                                  limits);
-      Point<3>     middle;
-      Tensor<1, 3> diagonal;
-      for (unsigned int a = 0; a < 3; ++a)
-        {
-          middle[a]   = 0.5 * (limits[a] - limits[3 + a]);
-          diagonal[a] = limits[a] + limits[3 + a];
-        }
-      return {middle, diagonal.norm()};
-    }
-  } // namespace
 
   ObstacleWriter::ObstacleWriter(
     const std::vector<std::shared_ptr<const Obstacle>> &obstacles,
@@ -59,8 +26,10 @@ namespace corotet
   void
   ObstacleWriter::write_mesh(const Snapshot &state)
   {
-    const MPI_Comm comm         = state.discretization.communicator();
-    const auto [middle, length] = extent(state.discretization);
+    const MPI_Comm comm       = state.discretization.communicator();
+    const auto [lower, upper] = state.discretization.bounding_box();
+    const Point<3> middle     = lower + 0.5 * (upper - lower);
+    const double   length     = lower.distance(upper);
 
     // All ranks make the few triangles, rank 0 writes them.
     std::vector<double>       positions;

@@ -44,9 +44,9 @@ namespace corotet
               0)
           throw InputError(entry,
                            fmt::format("nothing is fixed or prescribed at "
-                                       "'{}', and it has no springs or "
-                                       "dashpots; allowed are places with one "
-                                       "of these",
+                                       "'{}', and no springs or dashpots act "
+                                       "there; allowed are places with one of "
+                                       "these",
                                        supports[s].places));
       }
   }

@@ -2,7 +2,9 @@
 // Copyright (C) 2026 by the corotet authors
 
 #include <corotet/base/exceptions.h>
+#include <corotet/base/ghosted_copy.h>
 #include <corotet/base/joint_reduction.h>
+#include <corotet/base/vector_at.h>
 #include <corotet/operators/surface.h>
 #include <corotet/simulation/energy_budget.h>
 
@@ -17,15 +19,6 @@ namespace corotet
 
   namespace
   {
-    // The entries of a node.
-    Tensor<1, 3>
-    vector_at(const Vector &vector, const unsigned int n)
-    {
-      return Tensor<1, 3>({vector.local_element(3 * n),
-                           vector.local_element(3 * n + 1),
-                           vector.local_element(3 * n + 2)});
-    }
-
     // Fills in what the record says of the shapes of cells.
     void
     describe_cells(StepRecord &record, const ElasticState &state)
@@ -54,9 +47,9 @@ namespace corotet
       body.discretization.initialize_vector(last.damping);
     if (force_terms.has_friction() && !force_terms.has_only_friction())
       {
-        for (Vector *vector : {&friction, &last.friction})
+        for (Vector *vector : {&friction, &last.friction, &velocity})
           body.discretization.initialize_vector(*vector);
-        force_terms.friction_force(friction, equation.last_motion());
+        find_friction(initial_state);
       }
     body.discretization.initialize_vector(last.displacement);
     last.carried.resize(n_prescribed);
@@ -112,6 +105,17 @@ namespace corotet
       return terms.external.local_element(i);
     return terms.internal.local_element(i) +
            (terms.elastic.size() > 0 ? terms.elastic.local_element(i) : 0.);
+  }
+
+  void
+  EnergyBudget::find_friction(const State &state)
+  {
+    // As record() does it for other forces.
+    const Motion motion = equation.last_motion();
+    if (is_staggered)
+      copy_with_ghosts(velocity, state.v);
+    force_terms.friction_force(
+      friction, {motion.time, motion.u, is_staggered ? velocity : motion.v});
   }
 
   void
@@ -209,7 +213,7 @@ namespace corotet
         sums[1] += middle_damping(i) * du(i);
     if (friction.size() > 0)
       {
-        force_terms.friction_force(friction, equation.last_motion());
+        find_friction(state);
         for (unsigned int i = 0; i < n; ++i)
           sums[2] += (c * friction.local_element(i) +
                       (1 - c) * last.friction.local_element(i)) *
@@ -273,6 +277,14 @@ namespace corotet
   }
 
   void
+  EnergyBudget::record_forces(StepRecord &record, const Motion &motion) const
+  {
+    if (has_obstacles)
+      record.contact_forces = force_terms.contact_forces(motion);
+    record.ground_forces = force_terms.ground_forces(motion);
+  }
+
+  void
   EnergyBudget::record(StepRecord  &record,
                        const State &state,
                        const double time)
@@ -304,13 +316,14 @@ namespace corotet
       record.internal_moment +=
         cross_product_3d(position_at(n), vector_at(terms.internal, n));
 
-    if (has_obstacles)
-      record.contact_forces =
-        force_terms.contact_forces(equation.last_motion());
-    record.ground_forces = force_terms.ground_forces(equation.last_motion());
+    // Explicit steps complete these with the velocity at the end of the step.
+    if (!is_staggered)
+      record_forces(record, equation.last_motion());
 
     // Energies and momenta are those at the end of the step.
     equation.set_state(state);
+    if (is_staggered)
+      record_forces(record, equation.motion(time));
     find_kinetic_energy(record, state);
     record.momentum = record.angular_momentum = Tensor<1, 3>();
     double largest_square                     = 0;

@@ -141,11 +141,11 @@ namespace corotet
     EquationOfMotion &equation = system.equation();
     const bool dynamic = parameters.time_integrator.selected().is_dynamic();
     if (dynamic)
-      {
-        check_supports_at_start(system, parameters, initial, log);
-        check_loads(equation, initial, parameters.start_time);
-        warn_of_contact(equation, log);
-      }
+      check_supports_at_start(system, parameters, initial, log);
+    // In statics, too: their work begins there.
+    check_loads(equation, initial, parameters.start_time);
+    if (dynamic)
+      warn_of_contact(equation, log);
     equation.set_state(initial);
     // Displacements of a linear law may be of any size.
     if (!equation.body.law->is_linear())

@@ -18,13 +18,14 @@ using dealii::Tensor;
 namespace
 {
   MovingBody
-  touching_block(const Element element, const std::string &obstacle)
+  touching_block(const Element      element,
+                 const std::string &obstacle,
+                 const std::string &motion = "0; 0; 0.3 * sin(t)")
   {
     return {box("2, 1, 1", "3, 2, 2", 0.1),
-            element_text(element) +
-              section("Contact",
-                      {{"Obstacles", "o: " + obstacle},
-                       {"Motions", "o: 0; 0; 0.3 * sin(t)"}})};
+            element_text(element) + section("Contact",
+                                            {{"Obstacles", "o: " + obstacle},
+                                             {"Motions", "o: " + motion}})};
   }
 
   // The block falls from 3 m above to 0.3 m below, and waves as it does.
@@ -39,11 +40,10 @@ namespace
   }
 
   Vector
-  pressure(const MovingBody &body, const double t)
+  pressure(const MovingBody &body, const double t, const Vector &u)
   {
     Vector f;
     body.discretization.initialize_vector(f);
-    const Vector u = falling(body, t);
     body.system.equation().terms.external_force(f, {t, u, u}, 1.);
     return f;
   }
@@ -70,11 +70,11 @@ TEST_P(NearbyFacesTest, ForcesDoNotDependOnThePast)
         {
           // In steps of 0.01 to the end, and back to the start in long ones.
           const double t = 0.01 * step;
-          const Vector f = pressure(body, t);
+          const Vector f = pressure(body, t, falling(body, t));
           if (step % 30 != 0)
             continue;
           const MovingBody fresh      = touching_block(GetParam(), obstacle);
-          Vector           difference = pressure(fresh, t);
+          Vector           difference = pressure(fresh, t, falling(fresh, t));
           n_touched += difference.linfty_norm() > 0;
           difference -= f;
           EXPECT_EQ(difference.linfty_norm(), 0) << obstacle << ", t = " << t;
@@ -83,10 +83,31 @@ TEST_P(NearbyFacesTest, ForcesDoNotDependOnThePast)
       for (const double t : {0., 3.2, 1.5, 3.})
         {
           const MovingBody fresh      = touching_block(GetParam(), obstacle);
-          Vector           difference = pressure(fresh, t);
-          difference -= pressure(body, t);
+          Vector           difference = pressure(fresh, t, falling(fresh, t));
+          difference -= pressure(body, t, falling(body, t));
           EXPECT_EQ(difference.linfty_norm(), 0) << obstacle << ", t = " << t;
         }
+    }
+}
+
+// The same where only the obstacle moves, from far away.
+TEST(NearbyFaces, FollowTheObstacle)
+{
+  const std::string obstacle = "plane 0 0 -3 0 0 1", motion = "0; 0; t";
+  MovingBody        body = touching_block(Element(2), obstacle, motion);
+  const Vector      at_rest =
+    body.interpolate([](const Point<3> &) { return Tensor<1, 3>(); });
+  for (unsigned int step = 0; step <= 350; ++step)
+    {
+      const double t = 0.01 * step;
+      const Vector f = pressure(body, t, at_rest);
+      if (step % 50 != 0)
+        continue;
+      const MovingBody fresh = touching_block(Element(2), obstacle, motion);
+      Vector           difference = pressure(fresh, t, at_rest);
+      EXPECT_EQ(difference.linfty_norm() > 0, t > 3);
+      difference -= f;
+      EXPECT_EQ(difference.linfty_norm(), 0) << t;
     }
 }
 

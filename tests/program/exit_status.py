@@ -70,6 +70,15 @@ class ExitStatus(ProgramTest):
             self.check_message(run, "Supports/Elastic: found the value -0.02 at")
             self.assertFalse((self.folder / "results").exists())
 
+    def test_loads_at_the_start_of_statics(self):
+        # No state is solved for at the start, but the work of the loads begins there.
+        settings = ("Time integration/Type = static", "Time integration/End time = 0.04", "Boundary conditions/Traction = z-max: 1/t; 0; 0")
+        for words in ((), ("--validate",)):
+            run = self.run_small(*settings, status=1, words=words)
+            self.check_message(run, "Boundary conditions/Traction: ")
+            self.assertIn("at t = 0", run.stderr)
+            self.assertFalse((self.folder / "results").exists())
+
     def test_supports_that_disagree_on_the_way(self):
         # This motion vanishes at the times that are checked before the start,
         # but not between.

@@ -69,11 +69,12 @@ namespace corotet
     /// @p stiffness is that per area at rest [N/m^3]; 0 stands for the default.
     Contact(const std::shared_ptr<const ContactSurface> &surface,
             const std::shared_ptr<const Obstacle>       &obstacle,
+            const std::shared_ptr<NearbyFaces>          &nearby,
             const double                                 stiffness)
       : surface(surface)
       , the_obstacle(obstacle)
       , stiffness(stiffness)
-      , nearby(*surface, *obstacle)
+      , nearby(nearby)
     {}
 
     /// A point of the surface that is inside of the obstacle.
@@ -124,7 +125,8 @@ namespace corotet
     const double                                stiffness;
 
   private:
-    mutable NearbyFaces nearby;
+    /// Those of this obstacle, for all of its forces.
+    const std::shared_ptr<NearbyFaces> nearby;
   };
 
   /**
@@ -138,8 +140,9 @@ namespace corotet
   public:
     NormalContact(const std::shared_ptr<const ContactSurface> &surface,
                   const std::shared_ptr<const Obstacle>       &obstacle,
+                  const std::shared_ptr<NearbyFaces>          &nearby,
                   const double                                 stiffness)
-      : Contact(surface, obstacle, stiffness)
+      : Contact(surface, obstacle, nearby, stiffness)
     {}
 
     Role
@@ -183,10 +186,11 @@ namespace corotet
   public:
     Friction(const std::shared_ptr<const ContactSurface> &surface,
              const std::shared_ptr<const Obstacle>       &obstacle,
+             const std::shared_ptr<NearbyFaces>          &nearby,
              const double                                 stiffness,
              const double                                 coefficient,
              const double                                 slip_velocity)
-      : Contact(surface, obstacle, stiffness)
+      : Contact(surface, obstacle, nearby, stiffness)
       , coefficient(coefficient)
       , slip_velocity(slip_velocity)
     {}

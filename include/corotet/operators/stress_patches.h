@@ -49,10 +49,9 @@ namespace corotet
    * @cite zienkiewicz1992), with wider patches at the surface.
    *
    * The patch of a vertex consists of the cells of one group of MaterialNodes
-   * around it. A
-   * polynomial of degree p is fitted to the stress at the points of the
-   * stiffness rule there, by least squares. A node gets the values of the
-   * polynomials of the vertices of its edge, face or cell, weighted by its
+   * around it. A polynomial of degree p is fitted to the stress at the points
+   * of the stiffness rule there, by least squares. A node gets the values of
+   * the polynomials of the vertices of its edge, face or cell, weighted by its
    * barycentric coordinates.
    *
    * At the surface and at interfaces a patch is one-sided: it determines terms

@@ -161,7 +161,8 @@ namespace corotet
 
     explicit SurfaceOperator(const Nodes &nodes);
 
-    /// Takes over @p factor times the values of @p matrix.
+    /// Takes over @p factor times the values of @p matrix. All matrices with
+    /// the same number of faces must have the same ones.
     void
     set(const SurfaceMatrix &matrix, const double factor = 1);
 

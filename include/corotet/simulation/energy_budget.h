@@ -150,6 +150,13 @@ namespace corotet
     /// Collective.
     void
     find_balance(StepRecord &record, const Motion &motion) const;
+    /// What obstacles, springs and dashpots do. Collective.
+    void
+    record_forces(StepRecord &record, const Motion &motion) const;
+    /// Finds the friction of the last evaluation, in explicit steps with the
+    /// velocity of @p state. Collective.
+    void
+    find_friction(const State &state);
     /// Finds the kinetic energies of this rank, and the momentum of each node.
     void
     find_kinetic_energy(StepRecord &record, const State &state);
@@ -178,7 +185,9 @@ namespace corotet
     double friction_work = 0;
     /// Friction of the last evaluation; empty if there is none, or no other
     /// damping.
-    Vector     friction;
+    Vector friction;
+    /// Work space, of the same size.
+    Vector     velocity;
     double     energy_of_supports = 0;
     StepRecord initial;
     /// What the supports did in the last record(), and in the one before.

@@ -16,8 +16,8 @@ namespace corotet
    * Throws InputError if a run cannot begin with the state @p initial: if the
    * initial displacement contradicts a support or turns cells inside out, or if
    * a load is not finite at the start or at the end. (In statics the initial
-   * displacement is a guess, which supports need not agree with, and the start
-   * needs no loads.) Warns of supports that jump. Collective.
+   * displacement is a guess, which supports need not agree with.) Warns of
+   * supports that jump. Collective.
    */
   void
   check_start(StructuralSystem           &system,
