@@ -93,7 +93,7 @@ class ObstaclesToSee(ScriptTest):
             with Image.open(self.folder / "render.png") as image:
                 picture = np.asarray(image.convert("RGB")).astype(int)
             # The wall begins 0.21 m to the right of the middle, 126 pixels.
-            grey.append((np.ptp(picture, axis=2) < 20) & (picture.max(axis=2) < 240))
+            grey.append((np.ptp(picture, axis=2) < 12) & (picture.max(axis=2) < 215))
         self.assertTrue(grey[0][:, 330:].all())
         self.assertFalse(grey[0][:85, 20:322].any())
         self.assertFalse(grey[1].any())
