@@ -291,8 +291,9 @@ TEST_F(CheckpointFile, WrongContentWithARightChecksum)
   EXPECT_EQ(refusal_with("values", {{"number", 3}}), damaged);
   EXPECT_EQ(refusal_with("parameters", {{"Mesh", {{"Type", 3}}}}), damaged);
   EXPECT_EQ(refusal_with("format", 1),
-            path + ".json: found a checkpoint of format 1; allowed: 9, that of "
-                   "this program");
+            path +
+              ".json: found a checkpoint of format 1; allowed: 10, that of "
+              "this program");
   Json deep = 1;
   for (unsigned int i = 0; i < 40; ++i)
     deep = Json{{"a", deep}};
