@@ -157,8 +157,11 @@ namespace corotet
   std::vector<GroundForce>
   ForceTerms::ground_forces(const Motion &motion) const
   {
-    std::vector<GroundForce> result;
-    for (const unsigned int boundary : ground_boundaries())
+    std::vector<GroundForce>     result;
+    const std::set<unsigned int> boundaries = ground_boundaries();
+    if (boundaries.empty())
+      return result;
+    for (const unsigned int boundary : boundaries)
       {
         Vector &f = zero_vector();
         for (const auto &term : terms)
