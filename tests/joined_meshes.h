@@ -12,8 +12,8 @@ namespace corotet::tests
 {
   /// Adds the cells of another mesh, moved by @p shift, with common vertices
   /// where they meet. Names are those of @p mesh; the faces of @p other get
-  /// none.
-  inline void
+  /// none. Returns the new numbers of the vertices of @p other.
+  inline std::vector<unsigned int>
   add_mesh(SerialMesh                 &mesh,
            const SerialMesh           &other,
            const dealii::Tensor<1, 3> &shift)
@@ -36,6 +36,7 @@ namespace corotet::tests
           v = numbers[v];
         mesh.cells.push_back(cell);
       }
+    return numbers;
   }
 } // namespace corotet::tests
 

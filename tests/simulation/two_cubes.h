@@ -4,9 +4,8 @@
 #ifndef corotet_tests_simulation_two_cubes_h
 #define corotet_tests_simulation_two_cubes_h
 
-#include <vector>
-
 #include "../body.h"
+#include "../joined_meshes.h"
 
 namespace corotet::tests
 {
@@ -16,30 +15,12 @@ namespace corotet::tests
   inline SerialMesh
   two_cubes(const dealii::Tensor<1, 3> &shift)
   {
-    SerialMesh                mesh = box("1, 1, 1", "1, 1, 1");
-    const SerialMesh          one  = mesh;
-    std::vector<unsigned int> numbers;
-    for (const auto &x : one.vertices)
-      {
-        unsigned int n = 0;
-        while (n < one.vertices.size() &&
-               (one.vertices[n] - x - shift).norm() > 1e-10)
-          ++n;
-        if (n == one.vertices.size())
-          {
-            n = mesh.vertices.size();
-            mesh.vertices.push_back(x + shift);
-          }
-        numbers.push_back(n);
-      }
-    constexpr unsigned int other = 50;
-    for (auto cell : one.cells)
-      {
-        for (unsigned int &v : cell.vertices)
-          v = numbers[v];
-        cell.region = other;
-        mesh.cells.push_back(cell);
-      }
+    SerialMesh             mesh    = box("1, 1, 1", "1, 1, 1");
+    const SerialMesh       one     = mesh;
+    const auto             numbers = add_mesh(mesh, one, shift);
+    constexpr unsigned int other   = 50;
+    for (std::size_t c = one.cells.size(); c < mesh.cells.size(); ++c)
+      mesh.cells[c].region = other;
     for (auto face : one.faces)
       {
         for (unsigned int &v : face.vertices)
