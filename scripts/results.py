@@ -76,11 +76,13 @@ class Obstacles:
 
     def each(self, times):
         """For each obstacle its points, its triangles of these, whether it is hollow, and its displacements [m] in the states nearest to some times."""
-        moves = np.stack([self.displacement(time) for time in times])
-        for number in np.unique(self.owners):
-            own = self.owners == number
+        _, first_triangles = np.unique(self.owners, return_index=True)
+        # All vertices of an obstacle move alike.
+        moves = np.stack([self.displacement(time)[self.triangles[first_triangles, 0]] for time in times], axis=1)
+        for first, own_moves in zip(first_triangles, moves):
+            own = self.owners == self.owners[first]
             vertices, corners = np.unique(self.triangles[own], return_inverse=True)
-            yield self.points[vertices], corners.reshape(-1, 3), bool(self.is_hollow[own][0]), moves[:, vertices[0]]
+            yield self.points[vertices], corners.reshape(-1, 3), bool(self.is_hollow[first]), own_moves
 
 
 class Run:
