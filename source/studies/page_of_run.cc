@@ -36,18 +36,21 @@ namespace corotet
   std::string
   command_for_page(const std::string &directory)
   {
-    const char *const toolchain = std::getenv("COROTET_TOOLCHAIN");
-    const bool        is_named  = toolchain != nullptr && *toolchain != '\0';
+    namespace fs                = std::filesystem;
+    const char *const variable  = std::getenv("COROTET_TOOLCHAIN");
+    std::string       toolchain = variable != nullptr ? variable : "";
     // In a build it is the script of the sources, beside the toolchain.
-    const std::string path = "scripts/report";
-    std::string       script =
-      is_named ?
-              (std::filesystem::path(toolchain).parent_path() / "report").string() :
-              path;
-    const std::string found = find_installed("share/corotet/" + path);
-    if (!found.empty() && find_installed("CMakeCache.txt").empty())
-      script = found;
-    return (is_named ? shell_word(toolchain) + " " : "") + shell_word(script) +
-           " " + shell_word(as_argument(directory));
+    std::string    script = "scripts/report";
+    const fs::path beside = fs::path(toolchain).parent_path() / "report";
+    if (const std::string found = find_installed("share/corotet/" + script);
+        !found.empty() && find_installed("CMakeCache.txt").empty())
+      script = shell_word(found);
+    else if (!toolchain.empty() && fs::is_regular_file(beside))
+      {
+        script    = shell_word(beside.string());
+        toolchain = shell_word(toolchain);
+      }
+    return (toolchain.empty() ? "" : toolchain + " ") + script + " " +
+           shell_word(as_argument(directory));
   }
 } // namespace corotet
