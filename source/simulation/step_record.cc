@@ -11,7 +11,7 @@ namespace corotet
   namespace
   {
     dealii::Tensor<1, 3>
-    vector_at(const std::vector<double> &components, const std::size_t first)
+    tensor_of(const std::vector<double> &components, const std::size_t first)
     {
       return dealii::Tensor<1, 3>({components.at(first),
                                    components.at(first + 1),
@@ -75,7 +75,7 @@ namespace corotet
     std::istringstream words(names);
     std::string        name;
     for (std::size_t i = 0; words >> name; i += 3)
-      contact_forces.emplace_back(name, vector_at(components, i));
+      contact_forces.emplace_back(name, tensor_of(components, i));
   }
 
   void
@@ -96,7 +96,7 @@ namespace corotet
     ground_forces.clear();
     for (std::size_t i = 0; i < boundaries.size(); ++i)
       ground_forces.push_back({boundaries[i],
-                               vector_at(components, 6 * i),
-                               vector_at(components, 6 * i + 3)});
+                               tensor_of(components, 6 * i),
+                               tensor_of(components, 6 * i + 3)});
   }
 } // namespace corotet

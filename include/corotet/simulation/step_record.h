@@ -82,6 +82,7 @@ namespace corotet
     /// What springs and dashpots do, by boundary.
     std::vector<GroundForce> ground_forces;
 
+    /// Transfers all members.
     void
     transfer(Archive &archive);
 
